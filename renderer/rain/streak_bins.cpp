@@ -1,0 +1,154 @@
+#include "renderer/rain/streak_bins.h"
+
+#include "renderer/core/parallel.h"
+#include "renderer/rain/drop_size.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pluvia {
+namespace {
+
+// Outline of a streak on the picture: the hull of two disks, one at each end of its path.
+struct Outline {
+    double x0, y0, radius0, x1, y1, radius1;  // pixels
+};
+
+// The outline contains every pixel position whose rays can meet the drop; false where it is never in front. Seen
+// through the lens's centre, a point of the drop is at most f r sqrt(1 + tan^2) / (z - r) from its centre's picture, tan being
+// the angle off the axis (Cauchy-Schwarz on the difference of the two projections); a ray from the lens's rim is off by
+// the blur radius at the depth of that point. Along the path the inverse depth is linear on the picture and both are
+// convex in it, so that the disks between the ends stay in the hull.
+bool find_outline(const Streak& streak, const View& view, Outline& outline) {
+    const double contact = contact_depth(streak), r = streak.radius, f = view.focal_pixels;
+    const Vec3d start(streak.start), velocity(streak.velocity);
+    std::array<Vec3d, 2> ends = {start, start + velocity * double(float(view.exposure_time))};
+    if (ends[0].z < contact && ends[1].z < contact) return false;
+    for (Vec3d& end : ends)
+        if (end.z < contact) end = start + velocity * ((contact - start.z) / velocity.z);
+
+    const auto tan_squared = [](Vec3d p) { return (p.x * p.x + p.y * p.y) / (p.z * p.z); };
+    const double stretch = f * r * std::sqrt(1 + std::max(tan_squared(ends[0]), tan_squared(ends[1])));
+    const auto pixel_x = [&](Vec3d p) { return view.width / 2.0 + p.x * f / p.z; };
+    const auto pixel_y = [&](Vec3d p) { return view.height / 2.0 - p.y * f / p.z; };
+    const auto radius = [&](Vec3d p) {
+        const double blur = std::max(view.blur_radius_pixels(p.z - r), view.blur_radius_pixels(p.z + r));
+        // Single precision of the footprint and of the pixel positions that will be compared with it.
+        const double rounding = 1e-3 + 1e-6 * (std::abs(pixel_x(p)) + std::abs(pixel_y(p)));
+        return stretch / (p.z - r) + blur + rounding;
+    };
+    outline = {pixel_x(ends[0]), pixel_y(ends[0]), radius(ends[0]),
+               pixel_x(ends[1]), pixel_y(ends[1]), radius(ends[1])};
+    return true;
+}
+
+StreakFootprint footprint_of(const Outline& outline, float depth) {
+    const double dx = outline.x1 - outline.x0, dy = outline.y1 - outline.y0;
+    const double length_squared = dx * dx + dy * dy, radius = std::max(outline.radius0, outline.radius1);
+    return {float(outline.x0), float(outline.y0), float(dx), float(dy),
+            length_squared > 1e-6 ? float(1 / length_squared) : 0.0f, float(radius * radius), depth};
+}
+
+// Tiles that an interval of the picture begins and ends in; of one that lies outside, the last is before the first.
+int first_tile(double position, int count) { return int(std::clamp(std::floor(position), 0.0, double(count))); }
+int last_tile(double position, int count) { return int(std::clamp(std::floor(position), -1.0, count - 1.0)); }
+
+struct Tiling {
+    int width, height, columns, rows;  // of a tile in pixels; of the picture in tiles
+
+    // Calls visit(tile) for the tiles that the outline may touch: row by row, the part of the path whose disks reach
+    // the row, and the columns under that part.
+    template <class Visit>
+    void visit(const Outline& o, Visit&& visit) const {
+        const double dx = o.x1 - o.x0, dy = o.y1 - o.y0, dr = o.radius1 - o.radius0;
+        const double top = std::min(o.y0 - o.radius0, o.y1 - o.radius1);
+        const double bottom = std::max(o.y0 + o.radius0, o.y1 + o.radius1);
+        const int first_row = first_tile(top / height, rows), last_row = last_tile(bottom / height, rows);
+        for (int row = first_row; row <= last_row; ++row) {
+            double s0 = 0, s1 = 1;
+            const auto keep_where_not_negative = [&](double at_0, double slope) {
+                if (slope > 0) s0 = std::max(s0, -at_0 / slope);
+                if (slope < 0) s1 = std::min(s1, -at_0 / slope);
+                if (slope == 0 && at_0 < 0) s1 = -1;
+            };
+            keep_where_not_negative(o.y0 + o.radius0 - double(row) * height, dy + dr);
+            keep_where_not_negative(double(row + 1) * height - o.y0 + o.radius0, dr - dy);
+            if (s0 > s1) continue;
+            const double left = o.x0 - o.radius0 + std::min((dx - dr) * s0, (dx - dr) * s1);
+            const double right = o.x0 + o.radius0 + std::max((dx + dr) * s0, (dx + dr) * s1);
+            const int last = last_tile(right / width, columns);
+            for (int column = first_tile(left / width, columns); column <= last; ++column)
+                visit(size_t(row) * columns + column);
+        }
+    }
+};
+
+}  // namespace
+
+StreakBins::StreakBins(std::vector<Streak> streaks, const View& view, int tile_width, int tile_height)
+    : streaks_(std::move(streaks)),
+      footprints_(streaks_.size()),
+      exposure_time_(float(view.exposure_time)),
+      tile_width_(tile_width),
+      tile_height_(tile_height),
+      columns_((view.width + tile_width - 1) / tile_width),
+      rows_((view.height + tile_height - 1) / tile_height) {
+    // Streaks are counted, then entered, in a fixed number of parts side by side; within a tile the parts follow each
+    // other, so that the order is that of the streaks whatever the number of threads.
+    constexpr int parts = 16;
+    const Tiling tiling{tile_width_, tile_height_, columns_, rows_};
+    const size_t tiles = size_t(columns_) * rows_;
+    std::vector<uint32_t> next(parts * tiles);  // per part and tile: number, then place of the next entry in the tile
+    const auto for_each_entry = [&](int part, auto&& visit) {
+        const size_t end = streaks_.size() * (part + 1) / parts;
+        for (size_t i = streaks_.size() * part / parts; i < end; ++i) {
+            Outline outline;
+            if (!find_outline(streaks_[i], view, outline)) continue;
+            footprints_[i] = footprint_of(outline, nearest_depth(streaks_[i], exposure_time_));
+            tiling.visit(outline, [&](size_t tile) { visit(uint32_t(i), next[part * tiles + tile], tile); });
+        }
+    };
+    parallel_for(parts, [&](int part) { for_each_entry(part, [](uint32_t, uint32_t& n, size_t) { ++n; }); });
+
+    first_.resize(tiles + 1);
+    for (size_t tile = 0; tile < tiles; ++tile) {
+        uint32_t entered = 0;
+        for (int part = 0; part < parts; ++part) {
+            const uint32_t count = next[part * tiles + tile];
+            next[part * tiles + tile] = entered;
+            entered += count;
+        }
+        first_[tile + 1] = first_[tile] + entered;
+    }
+    entries_.resize(first_[tiles]);
+    parallel_for(parts, [&](int part) {
+        for_each_entry(part, [&](uint32_t i, uint32_t& n, size_t tile) { entries_[first_[tile] + n++] = i; });
+    });
+}
+
+std::span<const uint32_t> StreakBins::candidates(int pixel_x, int pixel_y) const {
+    const int column = std::clamp(pixel_x / tile_width_, 0, columns_ - 1);
+    const int row = std::clamp(pixel_y / tile_height_, 0, rows_ - 1);
+    const size_t tile = size_t(row) * columns_ + column;
+    return {entries_.data() + first_[tile], entries_.data() + first_[tile + 1]};
+}
+
+void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits) {
+    hits.clear();
+    const std::span<const Streak> streaks = bins.streaks();
+    const std::span<const StreakFootprint> footprints = bins.footprints();
+    // The ray's point beside a drop's centre is less than a radius from it, so the depths differ by less than that.
+    const float farthest = ray.t_max * ray.direction.z + float(largest_drop / 2);
+    for (const uint32_t index : bins.candidates(int(pixel.x), int(pixel.y))) {
+        if (footprints[index].nearest_depth > farthest) break;
+        if (!footprints[index].may_cover(pixel)) continue;
+        const std::optional<Covered> covered = covered_interval(streaks[index], ray, bins.exposure_time());
+        if (covered && covered->distance < ray.t_max) hits.push_back({index, *covered});
+    }
+    std::sort(hits.begin(), hits.end(), [&](const StreakHit& a, const StreakHit& b) {
+        return a.covered.distance != b.covered.distance ? a.covered.distance < b.covered.distance
+                                                        : streaks[a.streak].key < streaks[b.streak].key;
+    });
+}
+
+}  // namespace pluvia

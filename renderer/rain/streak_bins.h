@@ -1,0 +1,66 @@
+// Streaks sorted into screen tiles, so that a camera ray meets only the few that may cross it.
+// How a streak covers a ray is in coverage.h.
+#pragma once
+
+#include "renderer/core/view.h"
+#include "renderer/rain/coverage.h"
+#include "renderer/rain/streaks.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace pluvia {
+
+/// A streak as it lies on the picture: every ray that can meet the drop during the exposure has its pixel position
+/// within radius of the line from (x, y) to (x + dx, y + dy). Pixels.
+struct StreakFootprint {
+    float x, y, dx, dy;
+    float inverse_length_squared;  // of (dx, dy); 0 for a point
+    float radius_squared;
+    float nearest_depth;           // metres
+
+    bool may_cover(Vec2 pixel) const {
+        const float px = pixel.x - x, py = pixel.y - y;
+        const float s = std::min(std::max((px * dx + py * dy) * inverse_length_squared, 0.0f), 1.0f);
+        const float ex = px - s * dx, ey = py - s * dy;
+        return ex * ex + ey * ey <= radius_squared;
+    }
+};
+
+class StreakBins {
+public:
+    /// Takes the streaks of find_streaks, or those of them that remain after others have been removed, in their order.
+    /// The view is the one they were found for. Tiles are measured in pixels; the default, upright as streaks are, was
+    /// measured by tools/bench/streak_lookup.cpp.
+    StreakBins(std::vector<Streak> streaks, const View& view, int tile_width = 4, int tile_height = 8);
+
+    /// In order of nearest_depth, then key; StreakHit::streak is an index into this.
+    std::span<const Streak> streaks() const { return streaks_; }
+    std::span<const StreakFootprint> footprints() const { return footprints_; }
+    float exposure_time() const { return exposure_time_; }
+
+    /// Indices, rising and thereby in order of nearest depth, of the streaks that rays through this pixel may meet.
+    /// Outside of the picture: those of the nearest pixel.
+    std::span<const uint32_t> candidates(int pixel_x, int pixel_y) const;
+
+private:
+    std::vector<Streak> streaks_;
+    std::vector<StreakFootprint> footprints_;
+    float exposure_time_;
+    int tile_width_, tile_height_, columns_, rows_;
+    std::vector<uint64_t> first_;     // of each tile in entries_, row by row, and the end
+    std::vector<uint32_t> entries_;
+};
+
+struct StreakHit {
+    uint32_t streak;  // index into StreakBins::streaks()
+    Covered covered;
+};
+
+/// Replaces hits by all streaks that cover the ray nearer than ray.t_max, from front to back (ties by key).
+/// pixel: the position on the picture that the ray belongs to. ray: view coordinates, from a point of the lens (the
+/// origin for a pinhole) through the point in focus behind that pixel position, direction of unit length.
+void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits);
+
+}  // namespace pluvia

@@ -1,0 +1,50 @@
+// The drops that one camera can see at a width of some pixels during its exposure, as streaks in camera coordinates.
+// Smaller and farther drops are left to the rain medium. Looked up per ray through streak_bins.h.
+#pragma once
+
+#include "renderer/core/view.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pluvia {
+
+struct RainSettings {
+    std::vector<double> intensities_mm_per_h;  // of all pictures wanted; <= 0 is no rain
+    Vec3d wind;                                // m/s, world
+    uint64_t seed = 0;
+    double min_width_pixels = 1;  // drops narrower than this belong to the medium; the number of streaks grows as its
+                                  // inverse cube
+    double lowest_ground = 0;     // metres, world y: there are drops from here to rain_height above
+    double near = 0.1;            // metres of view depth: drops and medium begin here
+};
+
+/// A falling drop relative to the camera during one exposure. View axes: x right, y up, z view depth. Single precision
+/// is enough: relative to the camera it rounds directions by 1e-7, a few 1e-4 pixels, and that the same for all rays.
+struct Streak {
+    Vec3 start;                // centre of the drop when the shutter opens
+    Vec3 velocity;             // relative to the camera, m/s
+    float radius;              // metres
+    float threshold_mm_per_h;  // the streak is seen at every intensity >= this
+    uint64_t key;              // of the drop: the same in all frames
+};
+
+/// A drop counts from this view depth on: nearer than two diameters it would be touching the lens. Matters only where
+/// the camera moves so fast that it meets drops.
+inline float contact_depth(const Streak& streak) { return 4 * streak.radius; }
+
+/// Smallest view depth of the drop's centre while it counts.
+inline float nearest_depth(const Streak& streak, float exposure_time) {
+    const float end = streak.start.z + streak.velocity.z * exposure_time;
+    return std::max(std::min(streak.start.z, end), contact_depth(streak));
+}
+
+/// All drops that exist at the largest intensity asked for and may be in the picture during the exposure, ordered by
+/// nearest_depth, then key. view.position is the camera's place at mid-exposure, as for the background.
+/// Drop or medium is decided by the view depth z of the drop's centre at mid-exposure alone: it is a streak if
+/// z >= near and diameter * focal_pixels >= min_width_pixels * z. Which streaks are off the picture is decided
+/// conservatively. A streak does not depend on what other intensities are asked for.
+/// Throws a usage error for settings out of range.
+std::vector<Streak> find_streaks(const View& view, const RainSettings& settings);
+
+}  // namespace pluvia

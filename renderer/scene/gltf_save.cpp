@@ -1,0 +1,280 @@
+// Writing of .glb files: every mesh and picture once, one node per instance. The counterpart of gltf_load.cpp.
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include "renderer/scene/gltf.h"
+
+#include "renderer/core/error.h"
+#include "renderer/image/image_io.h"
+#include "renderer/image/pending_file.h"
+
+#include <fmt/format.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <span>
+
+namespace pluvia {
+namespace {
+
+std::vector<double> numbers(Rgb c) { return {c.r, c.g, c.b}; }
+
+std::vector<double> matrix_of(const Transform& t) {  // column-major
+    return {t.column_x.x, t.column_x.y, t.column_x.z, 0, t.column_y.x,    t.column_y.y,    t.column_y.z,    0,
+            t.column_z.x, t.column_z.y, t.column_z.z, 0, t.translation.x, t.translation.y, t.translation.z, 1};
+}
+
+/// Gathers the file's parts; everything binary goes into its one buffer.
+class GlbWriter {
+public:
+    explicit GlbWriter(const Scene& scene) : scene_(scene) {
+        model_.asset.version = "2.0";
+        model_.asset.generator = "Pluvia";
+        model_.buffers.resize(1);
+        model_.defaultScene = 0;
+        model_.scenes.resize(1);
+        model_.scenes[0].name = scene.name;
+        for (const Image<Rgba8>& image : scene.images) add_image(image);
+        for (const Texture& texture : scene.textures) add_texture(texture);
+        for (const Material& material : scene.materials) add_material(material);
+        for (const Mesh& mesh : scene.meshes) add_mesh(mesh);
+        for (const Instance& instance : scene.instances) add_instance(instance);
+        for (const PunctualLight& light : scene.lights) add_light(light);
+        for (const Camera& camera : scene.cameras) add_camera(camera);
+        std::sort(model_.extensionsUsed.begin(), model_.extensionsUsed.end());
+    }
+    const tinygltf::Model& model() const { return model_; }
+
+private:
+    template <class T>
+    int add_view(std::span<const T> values, int target) {
+        std::vector<unsigned char>& bytes = model_.buffers[0].data;
+        bytes.resize((bytes.size() + 3) / 4 * 4);  // accessors of floats and 32-bit indices start at multiples of 4
+        tinygltf::BufferView view;
+        view.buffer = 0;
+        view.byteOffset = bytes.size();
+        view.byteLength = values.size_bytes();
+        view.target = target;
+        bytes.resize(bytes.size() + values.size_bytes());
+        std::memcpy(bytes.data() + view.byteOffset, values.data(), values.size_bytes());
+        model_.bufferViews.push_back(view);
+        return int(model_.bufferViews.size()) - 1;
+    }
+
+    template <class T>
+    int add_accessor(std::span<const T> values, int component_type, int type, int target, size_t count) {
+        tinygltf::Accessor accessor;
+        accessor.bufferView = add_view(values, target);
+        accessor.componentType = component_type;
+        accessor.type = type;
+        accessor.count = count;
+        model_.accessors.push_back(accessor);
+        return int(model_.accessors.size()) - 1;
+    }
+
+    /// components: floats per element, which are flattened by the caller.
+    int add_floats(const std::vector<float>& values, int components) {
+        constexpr int types[] = {0, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
+        return add_accessor(std::span(values), TINYGLTF_COMPONENT_TYPE_FLOAT, types[components],
+                            TINYGLTF_TARGET_ARRAY_BUFFER, values.size() / size_t(components));
+    }
+
+    void use_extension(const std::string& name) {
+        auto& used = model_.extensionsUsed;
+        if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+    }
+
+    void add_image(const Image<Rgba8>& image) {
+        const std::vector<std::byte> png = encode_png(image);
+        tinygltf::Image entry;
+        entry.bufferView = add_view(std::span(png), 0);
+        entry.mimeType = "image/png";
+        model_.images.push_back(entry);
+    }
+
+    void add_texture(const Texture& texture) {
+        const auto wrap = [](Wrap w) {
+            return w == Wrap::clamp    ? TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE
+                   : w == Wrap::mirror ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
+                                       : TINYGLTF_TEXTURE_WRAP_REPEAT;
+        };
+        tinygltf::Sampler sampler;
+        sampler.wrapS = wrap(texture.wrap_u);
+        sampler.wrapT = wrap(texture.wrap_v);
+        sampler.magFilter = texture.nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
+        const auto found = std::find(model_.samplers.begin(), model_.samplers.end(), sampler);
+        tinygltf::Texture entry;
+        entry.source = texture.image;
+        entry.sampler = int(found - model_.samplers.begin());
+        if (found == model_.samplers.end()) model_.samplers.push_back(sampler);
+        model_.textures.push_back(entry);
+    }
+
+    void add_material(const Material& material) {
+        tinygltf::Material entry;
+        entry.name = material.name;
+        auto& pbr = entry.pbrMetallicRoughness;
+        pbr.baseColorFactor = numbers(material.base_color);
+        pbr.baseColorFactor.push_back(material.alpha);
+        pbr.metallicFactor = material.metallic;
+        pbr.roughnessFactor = material.roughness;
+        pbr.baseColorTexture.index = material.base_color_texture;
+        pbr.metallicRoughnessTexture.index = material.metallic_roughness_texture;
+        entry.normalTexture.index = material.normal_texture;
+        entry.normalTexture.scale = material.normal_scale;
+        entry.emissiveTexture.index = material.emission_texture;
+        // Factors above one are not allowed in core glTF; the strength carries the luminance.
+        const double strength = std::max(1.0, double(max_component(material.emission)));
+        for (const double channel : numbers(material.emission)) entry.emissiveFactor.push_back(channel / strength);
+        if (strength > 1) extend(entry, "KHR_materials_emissive_strength", "emissiveStrength", strength);
+        const Material standard;
+        if (material.ior != standard.ior) extend(entry, "KHR_materials_ior", "ior", material.ior);
+        if (material.specular != standard.specular)
+            extend(entry, "KHR_materials_specular", "specularFactor", material.specular);
+        if (material.transmission != standard.transmission)
+            extend(entry, "KHR_materials_transmission", "transmissionFactor", material.transmission);
+        entry.alphaMode = material.alpha_mode == AlphaMode::mask    ? "MASK"
+                          : material.alpha_mode == AlphaMode::blend ? "BLEND"
+                                                                    : "OPAQUE";
+        // The cutoff means nothing in the other modes, and a file that states it there is not valid.
+        if (material.alpha_mode == AlphaMode::mask) entry.alphaCutoff = material.alpha_cutoff;
+        entry.doubleSided = material.double_sided;
+        model_.materials.push_back(entry);
+    }
+
+    void extend(tinygltf::Material& entry, const std::string& extension, const std::string& key, double value) {
+        entry.extensions[extension] = tinygltf::Value(tinygltf::Value::Object{{key, tinygltf::Value(value)}});
+        use_extension(extension);
+    }
+
+    void add_mesh(const Mesh& mesh) {
+        tinygltf::Primitive primitive;
+        primitive.mode = TINYGLTF_MODE_TRIANGLES;
+        primitive.material = mesh.material;
+        std::vector<float> p;
+        Vec3 lower = mesh.positions[0], upper = lower;
+        for (const Vec3 v : mesh.positions) {
+            p.insert(p.end(), {v.x, v.y, v.z});
+            lower = min(lower, v), upper = max(upper, v);
+        }
+        const int position = add_floats(p, 3);
+        model_.accessors[position].minValues = {lower.x, lower.y, lower.z};
+        model_.accessors[position].maxValues = {upper.x, upper.y, upper.z};
+        primitive.attributes["POSITION"] = position;
+        std::vector<float> n, uv, t, c;
+        for (const Vec3 v : mesh.normals) n.insert(n.end(), {v.x, v.y, v.z});
+        for (const Vec2 v : mesh.uvs) uv.insert(uv.end(), {v.x, v.y});
+        for (const Tangent& v : mesh.tangents) t.insert(t.end(), {v.direction.x, v.direction.y, v.direction.z, v.sign});
+        for (size_t i = 0; i < mesh.colors.size(); ++i) {
+            c.insert(c.end(), {mesh.colors[i].r, mesh.colors[i].g, mesh.colors[i].b});
+            if (!mesh.alphas.empty()) c.push_back(mesh.alphas[i]);
+        }
+        if (!n.empty()) primitive.attributes["NORMAL"] = add_floats(n, 3);
+        if (!uv.empty()) primitive.attributes["TEXCOORD_0"] = add_floats(uv, 2);
+        if (!t.empty()) primitive.attributes["TANGENT"] = add_floats(t, 4);
+        if (!c.empty()) primitive.attributes["COLOR_0"] = add_floats(c, mesh.alphas.empty() ? 3 : 4);
+        primitive.indices = add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                         TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                                         3 * mesh.triangles.size());
+        tinygltf::Mesh entry;
+        entry.name = mesh.name;
+        entry.primitives.push_back(primitive);
+        model_.meshes.push_back(entry);
+    }
+
+    /// Appends a node under `parent`, -1 = the scene itself.
+    int add_node(const tinygltf::Node& node, int parent) {
+        model_.nodes.push_back(node);
+        const int index = int(model_.nodes.size()) - 1;
+        (parent < 0 ? model_.scenes[0].nodes : model_.nodes[parent].children).push_back(index);
+        return index;
+    }
+
+    /// The node that stands for a path's folders, made on first use; -1 for the empty path.
+    int group(const std::string& path) {
+        if (path.empty()) return -1;
+        const auto found = groups_.find(path);
+        if (found != groups_.end()) return found->second;
+        const size_t slash = path.rfind('/');
+        tinygltf::Node node;
+        node.name = path.substr(slash + 1);  // npos + 1 = 0: the whole path
+        return groups_[path] = add_node(node, group(slash == std::string::npos ? "" : path.substr(0, slash)));
+    }
+
+    void add_instance(const Instance& instance) {
+        const size_t slash = instance.name.rfind('/');
+        tinygltf::Node node;
+        node.name = instance.name.substr(slash + 1);
+        node.mesh = instance.mesh;
+        node.matrix = matrix_of(in_file(instance.scene_from_object));
+        add_node(node, group(slash == std::string::npos ? "" : instance.name.substr(0, slash)));
+    }
+
+    void add_light(const PunctualLight& light) {
+        tinygltf::Light entry;
+        entry.name = light.name;
+        entry.type = light.kind == PunctualLight::Kind::point  ? "point"
+                     : light.kind == PunctualLight::Kind::spot ? "spot"
+                                                               : "directional";
+        // Colours are limited to 0..1 as emissive factors are.
+        const double strength = max_component(light.intensity);
+        entry.intensity = strength;
+        for (const double channel : numbers(light.intensity))
+            entry.color.push_back(strength > 0 ? channel / strength : 1.0);
+        entry.spot.innerConeAngle = light.inner_cone_angle;
+        entry.spot.outerConeAngle = light.outer_cone_angle;
+        model_.lights.push_back(entry);
+
+        const ShadingBasis basis(-light.direction);  // lights shine along their node's -z
+        tinygltf::Node node;
+        node.name = light.name;
+        node.matrix = matrix_of(in_file(
+            {Vec3d(basis.tangent), Vec3d(basis.bitangent), Vec3d(basis.normal), light.position}));
+        node.extensions["KHR_lights_punctual"] = tinygltf::Value(
+            tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
+        use_extension("KHR_lights_punctual");
+        add_node(node, -1);
+    }
+
+    void add_camera(const Camera& camera) {
+        tinygltf::Camera entry;
+        entry.name = camera.name;
+        entry.type = "perspective";
+        entry.perspective.yfov = camera.vertical_fov;
+        entry.perspective.znear = 0.01;
+        entry.perspective.zfar = 1000;  // tinygltf always writes it, and the default 0 is not valid
+        model_.cameras.push_back(entry);
+        tinygltf::Node node;
+        node.name = camera.name;
+        node.camera = int(model_.cameras.size()) - 1;
+        node.matrix = matrix_of(in_file(camera.scene_from_camera));
+        add_node(node, -1);
+    }
+
+    Transform in_file(Transform scene_from_object) const {
+        scene_from_object.translation += scene_.origin;
+        return scene_from_object;
+    }
+
+    const Scene& scene_;
+    tinygltf::Model model_;
+    std::map<std::string, int> groups_;
+};
+
+}  // namespace
+
+void save_glb(const Scene& scene, const std::string& path) {
+    check(scene, path);
+    for (const Mesh& mesh : scene.meshes)
+        if (mesh.triangles.empty())
+            throw input_error(path, fmt::format("mesh \"{}\" cannot be written (got 0 triangles, expected at least 1)",
+                                                mesh.name));
+    const GlbWriter writer(scene);
+    PendingFile file(path);
+    tinygltf::TinyGLTF().WriteGltfSceneToStream(&writer.model(), file.stream(), false, true);
+    file.commit();
+}
+
+}  // namespace pluvia

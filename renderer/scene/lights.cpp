@@ -1,0 +1,151 @@
+#include "renderer/scene/lights.h"
+
+#include "renderer/core/sampling.h"
+#include "renderer/scene/texture.h"
+
+#include <limits>
+
+namespace pluvia {
+namespace {
+
+/// Luminance of an emissive triangle averaged over a few fixed points. Never zero where the texture might shine: a
+/// light that is never chosen would be missing from the picture.
+float mean_emission(const Scene& scene, int instance, int triangle) {
+    const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
+    const float untextured = luminance(material.emission);
+    if (material.emission_texture < 0) return untextured;
+    constexpr int n = 4;
+    float sum = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+            const Vec2 b = sample_triangle({(i + 0.5f) / n, (j + 0.5f) / n});
+            sum += luminance(emission(scene, {instance, triangle, b.x, b.y}));
+        }
+    return std::max(sum / (n * n), 1e-3f * untextured);
+}
+
+/// Falloff between the cones of a spot light; KHR_lights_punctual, "Inner and Outer Cone Angles".
+float spot_falloff(const PunctualLight& light, Vec3 from_light) {
+    const float cos_outer = std::cos(light.outer_cone_angle), cos_inner = std::cos(light.inner_cone_angle);
+    const float t = (dot(from_light, light.direction) - cos_outer) / std::max(0.001f, cos_inner - cos_outer);
+    return std::clamp(t, 0.0f, 1.0f) * std::clamp(t, 0.0f, 1.0f);
+}
+
+}  // namespace
+
+Lights::Lights(const Scene& scene, const Environment& environment)
+    : scene_(&scene), environment_(&environment), first_light_of_instance_(scene.instances.size(), -1) {
+    std::vector<LightBounds> all;
+    for (const PunctualLight& light : scene.lights) add_punctual(light, all);
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        if (scene.materials[scene.meshes[scene.instances[i].mesh].material].emits()) add_triangles(int(i), all);
+    tree_ = LightTree(all);
+
+    std::vector<float> lux;
+    for (const PunctualLight& light : directional_) lux.push_back(luminance(light.intensity));
+    if (!directional_.empty()) directional_choice_ = Distribution1D(lux);
+    const double sky = environment.is_black() ? 0 : pi * luminance(environment.mean_radiance());
+    const double beams = directional_.empty() ? 0 : directional_choice_.total();
+    if (!directional_.empty()) environment_share_ = sky > 0 ? std::clamp(float(sky / (sky + beams)), 0.1f, 0.9f) : 0.0f;
+}
+
+void Lights::add_punctual(const PunctualLight& light, std::vector<LightBounds>& all) {
+    if (is_black(light.intensity)) return;
+    if (light.kind == PunctualLight::Kind::directional) {
+        directional_.push_back(light);
+        return;
+    }
+    LightBounds b;
+    b.lower = b.upper = Vec3(light.position);
+    b.power = 4 * pi * luminance(light.intensity);
+    if (light.kind == PunctualLight::Kind::spot) {
+        b.axis = light.direction;
+        b.cos_spread = 1;
+        b.cos_emission = std::cos(light.outer_cone_angle);
+    }
+    punctual_.push_back(light);
+    all.push_back(b);
+}
+
+void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
+    first_light_of_instance_[instance] = int(triangles_.size());
+    const Mesh& mesh = scene_->meshes[scene_->instances[instance].mesh];
+    for (int k = 0; k < int(mesh.triangles.size()); ++k) {
+        const auto corner = corners(*scene_, instance, k);
+        const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const double area = 0.5 * length(normal);
+        LightBounds b;
+        b.lower = Vec3(min(corner[0], min(corner[1], corner[2])));
+        b.upper = Vec3(max(corner[0], max(corner[1], corner[2])));
+        if (area > 0) {
+            b.axis = Vec3(normalize(normal));
+            b.cos_spread = 1;
+            b.two_sided = true;
+            b.power = 2 * pi * float(area) * mean_emission(*scene_, instance, k);
+        }
+        triangles_.push_back({instance, k});
+        all.push_back(b);
+    }
+}
+
+std::optional<LightSample> Lights::sample_local(const Receiver& receiver, float u_choice, Vec2 u) const {
+    const auto choice = tree_.choose(receiver, u_choice);
+    if (!choice) return std::nullopt;
+    const int punctual_count = int(punctual_.size());
+    if (choice->light >= punctual_count)
+        return sample_triangle_light(receiver, choice->light - punctual_count, choice->probability, u);
+
+    const PunctualLight& light = punctual_[choice->light];
+    const Vec3 to_light = Vec3(light.position - Vec3d(receiver.position));
+    const float distance_squared = length_squared(to_light);
+    if (distance_squared == 0) return std::nullopt;
+    const float distance = std::sqrt(distance_squared);
+    const Vec3 wi = to_light / distance;
+    const float falloff = light.kind == PunctualLight::Kind::spot ? spot_falloff(light, -wi) : 1.0f;
+    return LightSample{wi, distance, light.intensity * (falloff / distance_squared), choice->probability, true};
+}
+
+LightSample Lights::sample_triangle_light(const Receiver& receiver, int light, float probability, Vec2 u) const {
+    const EmissiveTriangle& triangle = triangles_[light];
+    const Vec2 b = sample_triangle(u);
+    const auto corner = corners(*scene_, triangle.instance, triangle.triangle);
+    const Vec3d p = corner[0] * (1.0 - b.x - b.y) + corner[1] * double(b.x) + corner[2] * double(b.y);
+    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
+    const float distance_squared = length_squared(to_light), distance = std::sqrt(distance_squared);
+    const Vec3 wi = to_light / distance;
+    // dA to solid angle; |normal| is twice the area, so the cosine and the area are both in this product.
+    const float projected_area = 0.5f * std::abs(dot(Vec3(normal), wi));
+    const SurfacePoint point{triangle.instance, triangle.triangle, b.x, b.y};
+    if (projected_area == 0 || distance_squared == 0) return {wi, distance, Rgb(0), 1, false};
+    return {wi, distance, emission(*scene_, point) * opacity(*scene_, point),
+            probability * distance_squared / projected_area, false};
+}
+
+float Lights::pdf_local(const Receiver& receiver, const SurfacePoint& point) const {
+    const int first = first_light_of_instance_[point.instance];
+    if (first < 0) return 0;
+    const float probability = tree_.probability(receiver, int(punctual_.size()) + first + point.triangle);
+    const auto corner = corners(*scene_, point.instance, point.triangle);
+    const Vec3d p = corner[0] * (1.0 - point.b1 - point.b2) + corner[1] * double(point.b1) + corner[2] * double(point.b2);
+    const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
+    const float distance_squared = length_squared(to_light);
+    const float projected_area = 0.5f * std::abs(dot(Vec3(cross(corner[1] - corner[0], corner[2] - corner[0])),
+                                                     to_light / std::sqrt(distance_squared)));
+    return projected_area > 0 ? probability * distance_squared / projected_area : 0;
+}
+
+std::optional<LightSample> Lights::sample_distant(float u_choice, Vec2 u) const {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    if (u_choice < environment_share_) {
+        const EnvironmentSample s = environment_->sample(u, u_choice / environment_share_);
+        if (!(s.pdf > 0)) return std::nullopt;
+        return LightSample{s.wi, infinity, s.radiance, s.pdf * environment_share_, false};
+    }
+    const auto choice = directional_choice_.sample((u_choice - environment_share_) / (1 - environment_share_));
+    const PunctualLight& light = directional_[choice.cell];
+    const float probability = directional_choice_.probability(choice.cell) * (1 - environment_share_);
+    return LightSample{-light.direction, infinity, light.intensity, probability, true};
+}
+
+}  // namespace pluvia

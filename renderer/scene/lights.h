@@ -1,0 +1,62 @@
+// Lights: one list of everything that shines on a point, sampled with pdfs that a path can weigh against its own.
+// Local lights (lamps, emissive triangles) are drawn through the light tree; distant ones are the environment with its
+// sun and directional lights.
+#pragma once
+
+#include "renderer/core/counters.h"
+#include "renderer/scene/light_tree.h"
+#include "renderer/scene/surface.h"
+#include "shaders/environment.h"
+
+#include <optional>
+#include <vector>
+
+namespace pluvia {
+
+/// Light that would arrive at a receiver if nothing were in between.
+struct LightSample {
+    Vec3 wi;               // towards the light, unit
+    float distance;        // metres, infinite for distant lights
+    Rgb radiance;          // cd/m2; for delta lights illuminance on a plane facing the light, in lux
+    float pdf;             // with respect to solid angle; for delta lights the probability of the choice
+    bool delta;            // cannot be met by a ray that was sampled otherwise
+};
+
+class Lights {
+public:
+    Lights(const Scene& scene, const Environment& environment);
+
+    bool has_local() const { return !tree_.empty(); }
+    bool has_distant() const { return !environment_->is_black() || !directional_.empty(); }
+    const Environment& environment() const { return *environment_; }
+
+    /// One local light towards a receiver; u_choice picks the light, u the point on it. Empty when none reaches it.
+    std::optional<LightSample> sample_local(const Receiver& receiver, float u_choice, Vec2 u) const;
+    /// Pdf with respect to solid angle at which sample_local picks this point of an emissive triangle.
+    float pdf_local(const Receiver& receiver, const SurfacePoint& point) const;
+
+    /// One distant light; u_choice picks among environment, sun and directional lights.
+    std::optional<LightSample> sample_distant(float u_choice, Vec2 u) const;
+    /// Pdf with respect to solid angle at which sample_distant picks this direction of the environment.
+    float pdf_distant(Vec3 direction) const { return environment_share_ * environment_->pdf(direction); }
+
+private:
+    struct EmissiveTriangle {
+        int instance, triangle;
+    };
+    void add_punctual(const PunctualLight& light, std::vector<LightBounds>& all);
+    void add_triangles(int instance, std::vector<LightBounds>& all);
+    LightSample sample_triangle_light(const Receiver& receiver, int triangle, float probability, Vec2 u) const;
+
+    const Scene* scene_;
+    const Environment* environment_;
+    std::vector<PunctualLight> punctual_;         // point and spot lights: the first lights of the tree
+    std::vector<EmissiveTriangle> triangles_;     // the lights after them
+    std::vector<int> first_light_of_instance_;    // index among triangles_, -1 = does not emit
+    std::vector<PunctualLight> directional_;
+    Distribution1D directional_choice_;
+    float environment_share_ = 1;                 // probability that sample_distant asks the environment
+    LightTree tree_;
+};
+
+}  // namespace pluvia

@@ -1,0 +1,131 @@
+// Scene: the one description of a street that builders make, glTF files hold and paths are traced through.
+// A plain struct of vectors whose parts refer to each other by index; it does not change while tracing.
+// Axes as in glTF: +Y up, metres. gltf.h reads and writes it, surface.h evaluates it at a hit.
+#pragma once
+
+#include "renderer/core/rgb.h"
+#include "renderer/core/transform.h"
+#include "renderer/core/units.h"
+#include "renderer/image/image.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pluvia {
+
+enum class Wrap { repeat, mirror, clamp };
+
+/// A picture with the way it is looked up. Whether its bytes are sRGB or linear is decided by the slot that uses it.
+struct Texture {
+    int image = -1;  // index into Scene::images
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+    bool nearest = false;  // magnification filter; otherwise bilinear
+};
+
+enum class AlphaMode { opaque, mask, blend };
+
+/// glTF metallic-roughness material. Texture slots are indices into Scene::textures, -1 = none, and multiply the factors.
+struct Material {
+    std::string name;
+    Rgb base_color = Rgb(1);
+    float alpha = 1;
+    float metallic = 1, roughness = 1;  // roughness is perceptual: GGX alpha is its square
+    float specular = 1;                 // scales the reflectance of a dielectric at normal incidence
+    float ior = 1.5f;
+    float transmission = 0;             // share of light that passes a thin, smooth sheet instead of meeting the diffuse lobe
+    Rgb emission;                       // cd/m2: emissive factor times strength, both sides of the surface
+    int base_color_texture = -1;          // sRGB, alpha linear
+    int metallic_roughness_texture = -1;  // linear: roughness in g, metallic in b
+    int normal_texture = -1;              // linear, tangent space
+    int emission_texture = -1;            // sRGB
+    float normal_scale = 1;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;  // kept for files; every surface is seen from both sides, as light sees it
+
+    bool emits() const { return !is_black(emission); }
+};
+
+struct Tangent {
+    Vec3 direction;
+    float sign = 1;  // bitangent = sign * cross(normal, direction)
+};
+
+/// Triangles with one material. All attributes but positions may be empty; otherwise one value per vertex.
+struct Mesh {
+    std::string name;
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;   // unit length
+    std::vector<Vec2> uvs;       // (0, 0) is the upper left corner of the picture
+    std::vector<Tangent> tangents;
+    std::vector<Rgb> colors;     // linear, multiply the base colour
+    std::vector<float> alphas;   // multiply alpha; empty or as long as colors
+    std::vector<std::array<uint32_t, 3>> triangles;
+    int material = -1;  // index into Scene::materials
+};
+
+/// A mesh placed in the scene.
+struct Instance {
+    std::string name;  // path of the node, e.g. "street/lamp_3"
+    uint32_t id = 0;   // hash of the path, stable across frames
+    int mesh = -1;
+    Transform scene_from_object;
+};
+
+struct PunctualLight {
+    enum class Kind { point, spot, directional };
+    std::string name;
+    Kind kind = Kind::point;
+    Rgb intensity = Rgb(1);  // candela for point and spot, lux for directional
+    Vec3d position;
+    Vec3 direction = {0, 0, -1};  // in which the light shines; spot and directional
+    float inner_cone_angle = 0, outer_cone_angle = pi / 4;  // radians from the axis
+};
+
+struct Camera {
+    std::string name;
+    Transform scene_from_camera;  // looks along -z, +y up; scale is ignored
+    double vertical_fov = 0.6;    // radians, holds whatever the picture's shape
+};
+
+struct Scene {
+    std::string name;
+    Vec3d origin;  // the scene's coordinates are the file's minus this, so that float32 is fine near the street
+    std::vector<Image<Rgba8>> images;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<PunctualLight> lights;
+    std::vector<Camera> cameras;
+    std::vector<std::string> warnings;  // what the file asks for and is rendered without, by name
+};
+
+/// Hash of a node's path that is its id in label pictures (32 bits, never 0).
+uint32_t instance_id(const std::string& path);
+
+struct Bounds {
+    Vec3d lower = {1e300, 1e300, 1e300}, upper = {-1e300, -1e300, -1e300};
+
+    bool empty() const { return lower.x > upper.x; }
+    void add(Vec3d p) { lower = min(lower, p), upper = max(upper, p); }
+};
+/// Box around all instances, in the scene's coordinates.
+Bounds bounds(const Scene& scene);
+
+/// Moves the coordinates so that their zero is the centre of the scene: a street a million metres away loses nothing
+/// to float32. Idempotent to rounding.
+void rebase(Scene& scene);
+
+/// The same street seen by a camera that shows all of it, for files without one.
+Camera framing_camera(const Scene& scene);
+
+/// Hash of everything that a picture of the scene depends on, names excepted.
+uint64_t content_hash(const Scene& scene);
+
+/// Throws Error (input) when an index, a size or a value is out of range; where: the file or builder to blame.
+void check(const Scene& scene, const std::string& where);
+
+}  // namespace pluvia

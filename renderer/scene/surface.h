@@ -1,0 +1,40 @@
+// Surface: all that light transport asks of the scene where a ray meets a triangle.
+#pragma once
+
+#include "renderer/core/counters.h"
+#include "renderer/scene/scene.h"
+#include "shaders/bsdf.h"
+
+namespace pluvia {
+
+/// A place on a triangle: which, and the barycentric weights of its second and third corner.
+struct SurfacePoint {
+    int instance = -1, triangle = -1;
+    float b1 = 0, b2 = 0;
+};
+
+struct Surface {
+    Vec3 position;
+    Vec3 geometric_normal;  // unit, on the side that the ray came from
+    Vec3 shading_normal;    // unit, interpolated and normal-mapped, turned so that the ray's side sees it
+    Rgb emission;           // cd/m2 towards the ray
+    Bsdf bsdf;              // in the frame of ShadingBasis(shading_normal)
+};
+
+/// direction: of the ray that arrives, unit. u: uniform number that chooses between the sheets of which a partly
+/// transmitting material is mixed.
+Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 direction, float u, Counters& counters);
+
+/// Share of light that the surface keeps from passing straight through: 1 for opaque materials, 0 or 1 for alpha masks.
+float opacity(const Scene& scene, const SurfacePoint& point);
+
+/// Whether opacity() can be below 1 anywhere on a mesh with this material.
+bool may_be_transparent(const Scene& scene, const Mesh& mesh);
+
+/// Corners of a triangle of an instance, in the scene's coordinates.
+std::array<Vec3d, 3> corners(const Scene& scene, int instance, int triangle);
+
+/// Emitted radiance at a point, cd/m2, the same for both sides; black where the material does not emit.
+Rgb emission(const Scene& scene, const SurfacePoint& point);
+
+}  // namespace pluvia

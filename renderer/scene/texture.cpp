@@ -1,0 +1,78 @@
+#include "renderer/scene/texture.h"
+
+#include "renderer/image/color.h"
+
+#include <cmath>
+
+namespace pluvia {
+namespace {
+
+int wrap_index(int i, int size, Wrap wrap) {
+    switch (wrap) {
+    case Wrap::clamp: return std::clamp(i, 0, size - 1);
+    case Wrap::mirror: {
+        const int period = 2 * size;
+        const int k = ((i % period) + period) % period;
+        return k < size ? k : period - 1 - k;
+    }
+    default: return ((i % size) + size) % size;
+    }
+}
+
+/// Mirrored and repeated coordinates are brought near zero first: an int must hold the texel index.
+float reduce(float x, Wrap wrap) {
+    if (wrap == Wrap::clamp) return std::clamp(x, -1.0f, 2.0f);
+    return wrap == Wrap::mirror ? x - 2 * std::floor(x / 2) : x - std::floor(x);
+}
+
+struct Texels {
+    const Rgba8* corner[4];
+    float weight[4];
+};
+
+Texels find_texels(const Scene& scene, const Texture& texture, Vec2 uv) {
+    const Image<Rgba8>& image = scene.images[texture.image];
+    const float x = reduce(uv.x, texture.wrap_u) * float(image.width);
+    const float y = reduce(uv.y, texture.wrap_v) * float(image.height);
+    const auto texel = [&](int i, int j) {
+        return &image.pixels[size_t(wrap_index(j, image.height, texture.wrap_v)) * image.width +
+                             wrap_index(i, image.width, texture.wrap_u)];
+    };
+    if (texture.nearest) {
+        const Rgba8* t = texel(int(std::floor(x)), int(std::floor(y)));
+        return {{t, t, t, t}, {1, 0, 0, 0}};
+    }
+    const float fx = std::floor(x - 0.5f), fy = std::floor(y - 0.5f);
+    const float tx = x - 0.5f - fx, ty = y - 0.5f - fy;
+    const int i = int(fx), j = int(fy);
+    return {{texel(i, j), texel(i + 1, j), texel(i, j + 1), texel(i + 1, j + 1)},
+            {(1 - tx) * (1 - ty), tx * (1 - ty), (1 - tx) * ty, tx * ty}};
+}
+
+}  // namespace
+
+Rgb lookup_color(const Scene& scene, int texture, Vec2 uv) {
+    const Texels t = find_texels(scene, scene.textures[texture], uv);
+    const auto& linear = linear_from_srgb8();
+    Rgb sum;
+    for (int k = 0; k < 4; ++k)
+        sum += t.weight[k] * Rgb(linear[t.corner[k]->r], linear[t.corner[k]->g], linear[t.corner[k]->b]);
+    return sum;
+}
+
+Vec3 lookup_linear(const Scene& scene, int texture, Vec2 uv) {
+    const Texels t = find_texels(scene, scene.textures[texture], uv);
+    Vec3 sum;
+    for (int k = 0; k < 4; ++k)
+        sum += t.weight[k] * Vec3(t.corner[k]->r / 255.0f, t.corner[k]->g / 255.0f, t.corner[k]->b / 255.0f);
+    return sum;
+}
+
+float lookup_alpha(const Scene& scene, int texture, Vec2 uv) {
+    const Texels t = find_texels(scene, scene.textures[texture], uv);
+    float sum = 0;
+    for (int k = 0; k < 4; ++k) sum += t.weight[k] * (t.corner[k]->a / 255.0f);
+    return sum;
+}
+
+}  // namespace pluvia

@@ -1,0 +1,54 @@
+#include "renderer/transport/layers.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pluvia {
+
+std::string intensity_label(double intensity) {
+    std::string text = fmt::format("{}", intensity);
+    const size_t point = text.find('.');
+    const std::string whole = text.substr(0, point);
+    std::string label = std::string(whole.size() < 3 ? 3 - whole.size() : 0, '0') + whole;
+    if (point != std::string::npos) label += "p" + text.substr(point + 1);
+    return label;
+}
+
+std::vector<std::string> layer_channels(const std::vector<double>& intensities) {
+    std::vector<std::string> names = {"background.R", "background.G", "background.B", "Z", "distance.Y"};
+    for (const double intensity : intensities) {
+        const std::string label = intensity_label(intensity);
+        for (const char* layer : {"transmittance_", "rain_", "inscatter_", "rainy_"})
+            for (const char* channel : {".R", ".G", ".B"}) names.push_back(layer + label + channel);
+        names.push_back("rain_" + label + ".A");
+        names.push_back("rainy_Z_" + label);
+    }
+    return names;
+}
+
+void develop(const PixelSums& sums, const CentreDepth& depth, int samples, float* values) {
+    const double weight = 1.0 / samples;
+    std::array<double, 3> background;
+    for (int c = 0; c < 3; ++c) *values++ = float(background[c] = sums.background[c] * weight);
+    *values++ = depth.z;
+    *values++ = depth.distance;
+    for (size_t i = 0; i < sums.rain.size(); ++i) {
+        const RainSums& rain = sums.rain[i];
+        const double coverage = rain.coverage * weight;
+        std::array<double, 3> passed, light;
+        for (int c = 0; c < 3; ++c) {
+            passed[c] = background[c] - rain.removed[c] * weight;
+            light[c] = rain.light[c] * weight;
+            // Where the background is black its mean transmission is what can be said.
+            *values++ = float(background[c] > 0 ? passed[c] / background[c] : 1 - coverage);
+        }
+        for (int c = 0; c < 3; ++c) *values++ = float(light[c]);
+        for (int c = 0; c < 3; ++c) *values++ = 0;
+        for (int c = 0; c < 3; ++c) *values++ = float(passed[c] + light[c]);
+        *values++ = float(coverage);
+        *values++ = depth.rainy_z[i];
+    }
+}
+
+}  // namespace pluvia

@@ -1,0 +1,245 @@
+#include "renderer/transport/render.h"
+
+#include "renderer/core/error.h"
+#include "renderer/core/parallel.h"
+#include "renderer/core/sampling.h"
+#include "renderer/transport/shelter.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+
+namespace pluvia {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// All that the tiles of a frame share.
+struct Frame {
+    const View& view;
+    const RenderSettings& settings;
+    const PathTracer& tracer;
+    const StreakBins* bins = nullptr;  // null where there is no rain
+    std::optional<RainStage> rain;
+
+    size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
+};
+
+/// One camera ray in view coordinates: through a point of the lens and the point in focus behind a pixel position.
+Ray view_ray(const View& view, Vec2 pixel, Vec2 lens) {
+    const Vec3 through_centre = view.view_direction(pixel);
+    if (view.lens_radius == 0) return {Vec3(), normalize(through_centre)};
+    const Vec2 d = sample_disk(lens);
+    const Vec3 origin(float(view.lens_radius) * d.x, float(view.lens_radius) * d.y, 0);
+    // Both ends of the ray scaled by 1 / focus distance, so that focus at infinity is an ordinary case.
+    return {origin, normalize(through_centre - origin / float(view.focus_distance))};
+}
+
+Ray scene_ray(const View& view, const Ray& ray) {
+    return {Vec3(view.position + view.world_vector_from_view(Vec3d(ray.origin))),
+            Vec3(view.world_vector_from_view(Vec3d(ray.direction)))};
+}
+
+void add(std::array<double, 3>& sum, Rgb value) { sum[0] += value.r, sum[1] += value.g, sum[2] += value.b; }
+
+/// Buffers that live as long as a tile, so that no pixel allocates.
+struct Scratch {
+    PixelSums sums;
+    CentreDepth depth;
+    std::vector<RainSample> rain;
+    std::vector<StreakHit> hits;
+    std::vector<float> values;
+};
+
+void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, Counters& counters) {
+    const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
+    const Vec2 u = sampler.get_2d(Draw::pixel);
+    const Vec2 pixel{float(x) + u.x, float(y) + u.y};
+    if (frame.view.lens_radius > 0) counters.count(Feature::lens);
+    Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
+    const Ray ray = scene_ray(frame.view, seen);
+    counters.count(Feature::camera_path);
+    const PathResult path = frame.tracer.trace(ray, {}, sampler, 0, counters);
+    if (!is_finite(path.radiance)) {
+        ++counters.invalid_samples;
+        return;
+    }
+    PixelSums& sums = scratch.sums;
+    add(sums.background, path.radiance);
+    if (!frame.rain) return;
+
+    seen.t_max = path.distance;
+    const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
+    const CameraSegment segment{pixel, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.hits, counters)) return;
+    for (size_t i = 0; i < scratch.rain.size(); ++i) {
+        const RainSample& rain = scratch.rain[i];
+        if (!is_finite(rain.light)) {
+            ++counters.invalid_samples;
+            continue;
+        }
+        add(sums.rain[i].removed, path.radiance * rain.coverage);
+        add(sums.rain[i].light, rain.light);
+        sums.rain[i].coverage += rain.coverage;
+    }
+}
+
+void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
+    const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
+    Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
+    RayHit hit;
+    CentreDepth& depth = scratch.depth;
+    const bool found = frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
+    depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
+    depth.z = depth.distance * seen.direction.z;
+    depth.rainy_z.assign(frame.intensity_count(), depth.z);
+    if (!frame.bins) return;
+    seen.t_max = depth.distance;
+    find_hits(*frame.bins, centre, seen, scratch.hits);
+    for (const StreakHit& h : scratch.hits) {
+        const Streak& streak = frame.bins->streaks()[h.streak];
+        const float z = h.covered.distance * seen.direction.z;
+        if (2 * streak.radius * float(frame.view.focal_pixels) < z) continue;
+        for (size_t i = 0; i < depth.rainy_z.size(); ++i)
+            if (streak.threshold_mm_per_h <= frame.settings.rain.intensities_mm_per_h[i])
+                depth.rainy_z[i] = std::min(depth.rainy_z[i], z);
+    }
+}
+
+void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, Counters& counters) {
+    Scratch scratch;
+    scratch.rain.resize(frame.intensity_count());
+    scratch.values.resize(band.planes.size());
+    for (int y = band.y; y < band.y + band.rows; ++y)
+        for (int x = x_begin; x < x_end; ++x) {
+            scratch.sums.background = {};
+            scratch.sums.rain.assign(frame.intensity_count(), {});
+            for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+            find_depth(frame, x, y, scratch, counters);
+            develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
+            const size_t pixel = size_t(y - band.y) * band.width + x;
+            for (size_t c = 0; c < band.planes.size(); ++c) band.planes[c][pixel] = scratch.values[c];
+        }
+}
+
+/// Bands in work; each leaves for the sink when it and all before it are complete. One thread at a time writes, outside
+/// the lock, while the others go on rendering; they wait before they get too far ahead of it.
+class BandQueue {
+public:
+    BandQueue(const View& view, int tile_size, size_t channels, const BandSink& sink)
+        : view_(view),
+          tile_size_(tile_size),
+          columns_((view.width + tile_size - 1) / tile_size),
+          channels_(channels),
+          sink_(sink) {}
+
+    int columns() const { return columns_; }
+
+    /// The band of a row of tiles. Rows are asked for in rising order, so that those that others wait for are in work.
+    Band& band(int row) {
+        std::unique_lock lock(mutex_);
+        written_.wait(lock, [&] { return stopped_ || bands_.count(row) || int(bands_.size()) < max_open_bands; });
+        auto& entry = bands_[row];
+        if (!entry.band) {
+            const int y = row * tile_size_;
+            entry.band = std::make_unique<Band>(y, std::min(tile_size_, view_.height - y), view_.width, channels_);
+        }
+        return *entry.band;
+    }
+
+    void complete_tile(int row) {
+        std::unique_lock lock(mutex_);
+        ++bands_[row].tiles_done;
+        if (writing_) return;
+        writing_ = true;
+        while (!bands_.empty() && bands_.begin()->first == next_row_ && bands_.begin()->second.tiles_done == columns_) {
+            const std::unique_ptr<Band> band = std::move(bands_.begin()->second.band);
+            lock.unlock();
+            sink_(*band);
+            lock.lock();
+            bands_.erase(bands_.begin());
+            ++next_row_;
+            written_.notify_all();
+        }
+        writing_ = false;
+    }
+
+    /// Lets waiting threads go after a failure.
+    void stop() {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+        written_.notify_all();
+    }
+
+private:
+    static constexpr int max_open_bands = 16;
+    struct Entry {
+        std::unique_ptr<Band> band;
+        int tiles_done = 0;
+    };
+    const View& view_;
+    int tile_size_, columns_;
+    size_t channels_;
+    const BandSink& sink_;
+    std::mutex mutex_;
+    std::condition_variable written_;
+    std::map<int, Entry> bands_;
+    int next_row_ = 0;
+    bool writing_ = false, stopped_ = false;
+};
+
+}  // namespace
+
+RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& settings,
+                    const BandSink& sink, const ProgressCallback& progress) {
+    RenderReport report;
+    const auto start = Clock::now();
+    const RayScene ray_scene(scene);
+    const Lights lights(scene, environment);
+    const PathTracer tracer(scene, ray_scene, lights, settings.path);
+
+    std::optional<StreakBins> bins;
+    Frame frame{view, settings, tracer, nullptr, std::nullopt};
+    if (!settings.rain.intensities_mm_per_h.empty()) {
+        RainSettings rain = settings.rain;
+        const Bounds box = bounds(scene);
+        rain.lowest_ground = box.empty() ? view.position.y - 100 : box.lower.y;
+        std::vector<Streak> streaks = find_streaks(view, rain);
+        report.sheltered_streaks = streaks.size();
+        remove_sheltered(streaks, view, ray_scene, report.counters);
+        report.sheltered_streaks -= streaks.size();
+        report.streaks = streaks.size();
+        bins.emplace(std::move(streaks), view);
+        frame.bins = &*bins;
+        frame.rain.emplace(tracer, *bins, rain.intensities_mm_per_h, settings.streaks);
+    }
+    report.build_seconds = seconds_since(start);
+
+    BandQueue queue(view, settings.tile_size, layer_channels(settings.rain.intensities_mm_per_h).size(), sink);
+    const int rows = (view.height + settings.tile_size - 1) / settings.tile_size;
+    const int tiles = rows * queue.columns();
+    std::mutex report_mutex;
+    int done = 0;
+    parallel_in_order(tiles, [&](int tile) {
+        try {
+            const int row = tile / queue.columns(), x = tile % queue.columns() * settings.tile_size;
+            Counters counters;
+            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row), counters);
+            queue.complete_tile(row);
+            const std::lock_guard lock(report_mutex);
+            report.counters += counters;
+            if (!progress(double(++done) / tiles))
+                throw Error(ExitCode::stopped_early, "render", "stopped before the end, nothing was written");
+        } catch (...) {
+            queue.stop();
+            throw;
+        }
+    });
+    report.render_seconds = seconds_since(start) - report.build_seconds;
+    return report;
+}
+
+}  // namespace pluvia

@@ -1,0 +1,39 @@
+// render(): a scene, an environment and a view to the layers of a frame, in bands of finished rows.
+#pragma once
+
+#include "renderer/scene/camera.h"
+#include "renderer/transport/layers.h"
+#include "renderer/transport/path.h"
+#include "renderer/transport/rain_stage.h"
+
+#include <functional>
+
+namespace pluvia {
+
+struct RenderSettings {
+    int samples = 64;  // camera samples per pixel
+    uint64_t seed = 0;
+    PathSettings path;
+    RainSettings rain;  // no intensities: no rain stage at all; lowest_ground is taken from the scene
+    StreakSettings streaks;
+    int tile_size = 32;  // pixels; changes no byte of the picture
+};
+
+struct RenderReport {
+    Counters counters;
+    size_t streaks = 0;            // in view, after shelter
+    size_t sheltered_streaks = 0;  // removed because a roof is above them
+    double build_seconds = 0, render_seconds = 0;
+};
+
+/// Takes finished rows, in rising order.
+using BandSink = std::function<void(const Band&)>;
+/// Told now and then how much is done, 0 to 1; false asks to stop.
+using ProgressCallback = std::function<bool(double)>;
+
+/// Renders all layers of layer_channels(settings.rain.intensities_mm_per_h). The bands are the same for any number of
+/// threads and any tile size. Throws Error (stopped_early) when progress returns false.
+RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& settings,
+                    const BandSink& sink, const ProgressCallback& progress);
+
+}  // namespace pluvia

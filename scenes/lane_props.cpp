@@ -1,0 +1,173 @@
+// Things of use that stand and hang in the lane.
+#include "scenes/lane.h"
+
+#include "renderer/core/units.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pluvia::lane {
+
+Assembly air_conditioner(const Finishes& f) {
+    Assembly a;
+    constexpr float w = 0.78f, h = 0.55f, d = 0.28f, gap = 0.09f;
+    add_box(a[f.painted_metal], {0, 0, gap}, {w, h, gap + d}, {}, 0.015f);
+    const Vec3 fan = {0.3f, 0.28f, gap + d};
+    add_tube(a[f.rubber], {fan + Vec3(0, 0, -0.02f), fan + Vec3(0, 0, 0.003f)}, 0.225f, 28);
+    for (int ring = 1; ring <= 7; ++ring) {  // wire guard
+        std::vector<Vec3> circle;
+        const float r = 0.033f * float(ring);
+        for (int i = 0; i <= 24; ++i) {
+            const float phi = 2 * pi * float(i) / 24;
+            circle.push_back(fan + Vec3(r * std::cos(phi), r * std::sin(phi), 0.016f));
+        }
+        add_tube(a[f.painted_metal], circle, 0.003f, 4);
+    }
+    for (int i = 0; i < 4; ++i) {
+        const float phi = pi * float(i) / 4;
+        const Vec3 out = Vec3(std::cos(phi), std::sin(phi), 0) * 0.235f, front = {0, 0, 0.018f};
+        add_tube(a[f.painted_metal], {fan - out + front, fan + out + front}, 0.004f, 5);
+    }
+    for (float y = 0.06f; y < h - 0.05f; y += 0.035f)
+        add_box(a[f.rubber], {0.57f, y, gap + d}, {0.73f, y + 0.012f, gap + d + 0.002f});
+    for (const float x : {0.1f, w - 0.1f}) {  // brackets
+        add_box(a[f.iron], {x - 0.02f, -0.03f, 0}, {x + 0.02f, 0, gap + d});
+        add_beam(a[f.iron], {x, -0.28f, 0}, {x, -0.02f, gap + d - 0.04f}, {0, 0, 1}, 0.03f, 0.02f);
+    }
+    add_tube(a[f.painted_metal], rounded({{w, 0.15f, gap + 0.12f}, {w + 0.12f, 0.15f, gap + 0.12f}, {w + 0.12f, 0.15f, 0.04f}, {w + 0.12f, 1.5f, 0.04f}},
+             0.07f, 5), 0.028f, 10);
+    return a;
+}
+
+Assembly meter_box(const Finishes& f) {
+    Assembly a;
+    add_box(a[f.painted_metal], {-0.12f, -0.2f, 0}, {0.12f, 0.16f, 0.12f}, {Rgb(0.75f), {}}, 0.012f);
+    add_tube(a[f.glass], {{0, 0.02f, 0.115f}, {0, 0.02f, 0.15f}}, 0.08f, 18);
+    add_tube(a[f.painted_metal], {{0, 0.02f, 0.11f}, {0, 0.02f, 0.135f}}, 0.092f, 18, {Rgb(0.5f), {}});
+    for (const float x : {-0.05f, 0.04f})
+        add_tube(a[f.zinc], rounded({{x, -0.2f, 0.05f}, {x, -0.6f, 0.05f}, {x + 0.1f, -0.75f, 0.04f}, {x + 0.1f, -1.45f, 0.04f}}, 0.1f), 0.013f, 8);
+    add_tube(a[f.zinc], {{0, 0.16f, 0.05f}, {0, 1.2f, 0.05f}}, 0.016f, 8);
+    return a;
+}
+
+Assembly bamboo_fence(const Finishes& f, float width) {
+    Assembly a;
+    Chance chance{0xba3b};
+    constexpr float height = 0.78f, depth = 0.5f, pitch = 0.034f;
+    const int count = int(width / pitch);
+    for (int i = 0; i < count; ++i) {  // split canes bent from the wall to the ground
+        std::vector<Vec3> cane;
+        const float x = pitch * (float(i) + 0.5f), lift = chance(-0.006f, 0.006f);
+        for (int k = 0; k <= 8; ++k) {
+            const float phi = 0.5f * pi * float(k) / 8;
+            cane.push_back({x, (height + lift) * std::cos(phi), 0.03f + (depth + lift) * std::sin(phi)});
+        }
+        add_tube(a[f.bamboo], cane, 0.0165f, 6, chance.tint(0.5f));
+    }
+    for (const float t : {0.12f, 0.5f, 0.85f}) {
+        const float phi = 0.5f * pi * t;
+        const Vec3 p = {0, height * std::cos(phi) + 0.012f, 0.03f + depth * std::sin(phi) + 0.014f};
+        add_tube(a[f.bamboo], {p, p + Vec3(width, 0, 0)}, 0.014f, 6, {Rgb(0.45f), {}});
+    }
+    return a;
+}
+
+Assembly bench(const Finishes& f) {
+    Assembly a;
+    Chance chance{0xbe};
+    for (int i = 0; i < 4; ++i)
+        add_box(a[f.brown_wood], {-0.6f, 0.4f, 0.02f + 0.1f * float(i)}, {0.6f, 0.43f, 0.11f + 0.1f * float(i)}, chance.tint(0.3f), 0.004f);
+    for (const float x : {-0.5f, 0.45f})
+        for (const float z : {0.04f, 0.35f}) add_box(a[f.brown_wood], {x, 0, z}, {x + 0.05f, 0.4f, z + 0.05f}, chance.tint(0.3f), 0.004f);
+    for (const float z : {0.05f, 0.36f}) add_box(a[f.brown_wood], {-0.5f, 0.1f, z}, {0.5f, 0.14f, z + 0.03f}, chance.tint(0.3f));
+    add_box(a[f.red_cloth], {-0.52f, 0.431f, 0.0f}, {0.3f, 0.445f, 0.44f}, {}, 0.004f);
+    return a;
+}
+
+Assembly bucket(const Finishes& f) {
+    Assembly a;
+    constexpr float low = 0.12f, high = 0.145f, height = 0.26f;
+    Chance chance{0xb0};
+    for (int i = 0; i < 16; ++i) {  // staves
+        const float phi = 2 * pi * float(i) / 16;
+        const Vec3 out = {std::sin(phi), 0, std::cos(phi)};
+        add_beam(a[f.bamboo], out * low, out * high + Vec3(0, height, 0), out, 0.052f, 0.014f, chance.tint(0.4f));
+    }
+    for (const float y : {0.05f, 0.2f}) {
+        const float r = low + (high - low) * y / height + 0.009f;
+        add_lathe(a[f.iron], {{r, y - 0.01f}, {r + 0.002f, y + 0.01f}}, 20, {1, 0.02f});
+    }
+    add_lathe(a[f.glass], {{0.125f, 0.21f}, {0, 0.211f}}, 16, {1, 1});  // water
+    add_tube(a[f.bamboo], {{-0.14f, height, 0}, {-0.14f, height + 0.1f, 0}, {0.14f, height + 0.1f, 0}, {0.14f, height, 0}}, 0.011f, 6);
+    return a;
+}
+
+Assembly umbrella_stand(const Finishes& f) {
+    Assembly a;
+    add_lathe(a[f.porcelain], {{0.12f, 0}, {0.13f, 0.02f}, {0.125f, 0.44f}, {0.14f, 0.46f}, {0.13f, 0.47f}, {0.11f, 0.45f}, {0.11f, 0.05f}}, 18, {0.8f, 0.5f});
+    const int colors[] = {f.red_cloth, f.indigo_cloth, f.rubber};
+    for (int i = 0; i < 3; ++i) {
+        const float phi = 2.1f * float(i) + 0.4f;
+        const Vec3 lean = normalize(Vec3(0.16f * std::cos(phi), 1, 0.16f * std::sin(phi)));
+        Shape folded;
+        add_lathe(folded, {{0.01f, 0}, {0.03f, 0.15f}, {0.045f, 0.5f}, {0.04f, 0.62f}, {0.02f, 0.68f}, {0, 0.69f}}, 9, {0.3f, 0.7f});
+        const ShadingBasis basis(lean);
+        append(a[colors[i]], folded, {Vec3d(basis.bitangent), Vec3d(lean), Vec3d(basis.tangent), Vec3d(0, 0.04, 0)});
+        add_tube(a[f.bamboo], rounded({lean * 0.66f + Vec3(0, 0.04f, 0), lean * 0.84f + Vec3(0, 0.04f, 0), lean * 0.9f + Vec3(0.06f, 0.04f, 0),
+                 lean * 0.84f + Vec3(0.1f, 0.04f, 0)}, 0.04f), 0.009f, 6);
+    }
+    return a;
+}
+
+Assembly crates(const Finishes& f) {
+    Assembly a;
+    Chance chance{0xc7};
+    for (int level = 0; level < 3; ++level) {
+        const float y = 0.31f * float(level), dx = chance(-0.02f, 0.02f);
+        const int finish = level == 1 ? f.terracotta : f.indigo_cloth;
+        for (int rail = 0; rail < 4; ++rail) {
+            const float low = y + 0.005f + 0.08f * float(rail), high = low + (rail == 0 ? 0.07f : 0.045f);
+            add_box(a[finish], {-0.22f + dx, low, -0.18f}, {0.22f + dx, high, -0.165f}, {}, 0.003f);
+            add_box(a[finish], {-0.22f + dx, low, 0.165f}, {0.22f + dx, high, 0.18f}, {}, 0.003f);
+            add_box(a[finish], {-0.22f + dx, low, -0.18f}, {-0.205f + dx, high, 0.18f});
+            add_box(a[finish], {0.205f + dx, low, -0.18f}, {0.22f + dx, high, 0.18f});
+        }
+        for (const float x : {-0.21f, 0.0f, 0.21f})
+            for (const float z : {-0.175f, 0.175f}) add_box(a[finish], {x - 0.012f + dx, y, z - 0.006f}, {x + 0.012f + dx, y + 0.3f, z + 0.006f});
+        add_box(a[finish], {-0.21f + dx, y + 0.005f, -0.17f}, {0.21f + dx, y + 0.02f, 0.17f});
+    }
+    return a;
+}
+
+Assembly utility_pole(const Finishes& f) {
+    Assembly a;
+    add_lathe(a[f.concrete], {{0.15f, 0}, {0.1f, 7.8f}, {0, 7.85f}}, 16, {0.9f, 7.8f});
+    for (const float y : {6.6f, 7.3f}) {
+        add_box(a[f.zinc], {-0.75f, y, 0.1f}, {0.75f, y + 0.075f, 0.17f});
+        for (const float x : {-0.65f, -0.3f, 0.3f, 0.65f}) {
+            Shape insulator;
+            add_lathe(insulator, {{0.02f, 0}, {0.045f, 0.03f}, {0.025f, 0.06f}, {0.045f, 0.09f}, {0.02f, 0.14f}, {0, 0.15f}}, 10, {0.2f, 0.2f});
+            append(a[f.porcelain], insulator, translate({x, y + 0.075, 0.135}));
+        }
+    }
+    Shape drum;
+    add_lathe(drum, {{0, 0}, {0.2f, 0.02f}, {0.22f, 0.1f}, {0.22f, 0.6f}, {0.2f, 0.68f}, {0, 0.72f}}, 18, {1.4f, 0.8f});
+    append(a[f.zinc], drum, translate({0.05, 5.4, 0.36}));
+    for (float y = 2.0f; y < 6; y += 0.45f) {
+        const float side = int(y / 0.45f) % 2 == 0 ? 1.0f : -1.0f;
+        add_tube(a[f.iron], {{0, y, 0}, {side * 0.28f, y, 0}}, 0.009f, 5);
+    }
+    return a;
+}
+
+void add_cable(Assembly& a, const Finishes& f, Vec3 from, Vec3 to, float sag, float radius) {
+    std::vector<Vec3> path;
+    constexpr int steps = 14;
+    for (int i = 0; i <= steps; ++i) {
+        const float t = float(i) / steps;
+        path.push_back(from + (to - from) * t - Vec3(0, 4 * sag * t * (1 - t), 0));
+    }
+    add_tube(a[f.rubber], path, radius, 5);
+}
+
+}  // namespace pluvia::lane

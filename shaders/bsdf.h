@@ -1,0 +1,48 @@
+// Bsdf: how a surface scatters light at one point, as the closed set of models that scenes use.
+// Conventions: bsdf_sample.h; the models: metallic_roughness.h, pane.h.
+//
+// A path prepares the Bsdf of a hit once for its wo, then samples it and evaluates it for each light:
+//     const PreparedBsdf bsdf = prepare(material, wo);
+//     const BsdfValue towards_light = evaluate(bsdf, wi);
+//     const std::optional<BsdfSample> next = sample(bsdf, u_lobe, u);
+#pragma once
+
+#include "shaders/bsdf_sample.h"
+#include "shaders/metallic_roughness.h"
+#include "shaders/pane.h"
+
+#include <optional>
+#include <variant>
+
+namespace pluvia {
+
+using Bsdf = std::variant<MetallicRoughness, Pane>;
+using PreparedBsdf = std::variant<PreparedMetallicRoughness, PreparedPane>;
+
+/// True where all lobes are deltas, so that sampling lights is in vain.
+inline bool is_delta(const Bsdf& bsdf) { return std::holds_alternative<Pane>(bsdf); }
+inline bool is_delta(const PreparedBsdf& bsdf) { return std::holds_alternative<PreparedPane>(bsdf); }
+
+/// Computes what depends on wo alone.
+inline PreparedBsdf prepare(const Bsdf& bsdf, Vec3 wo) {
+    return std::visit([&](const auto& model) -> PreparedBsdf { return prepare(model, wo); }, bsdf);
+}
+
+/// f |cos theta_i| and the pdf of sample() for wi; zero for delta lobes and where either direction is below the surface.
+inline BsdfValue evaluate(const PreparedBsdf& bsdf, Vec3 wi) {
+    return std::visit([&](const auto& model) { return evaluate(model, wi); }, bsdf);
+}
+
+/// Draws wi about in proportion to f |cos theta_i|. Empty: the path ends here.
+/// u_lobe and u: uniform in [0, 1), independent.
+inline std::optional<BsdfSample> sample(const PreparedBsdf& bsdf, float u_lobe, Vec2 u) {
+    return std::visit([&](const auto& model) { return sample(model, u_lobe, u); }, bsdf);
+}
+
+/// The same for a caller that asks only once per wo.
+inline BsdfValue evaluate(const Bsdf& bsdf, Vec3 wo, Vec3 wi) { return evaluate(prepare(bsdf, wo), wi); }
+inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3 wo, float u_lobe, Vec2 u) {
+    return sample(prepare(bsdf, wo), u_lobe, u);
+}
+
+}  // namespace pluvia

@@ -1,0 +1,44 @@
+// A frame on disk: frame.exr with all layers, and frame.json with everything needed to repeat it.
+// Neither holds a time, a host, a path or a number of threads: the same frame has the same bytes everywhere.
+#pragma once
+
+#include "renderer/image/exr.h"
+#include "renderer/image/exposure.h"
+#include "tools/render_options.h"
+
+namespace pluvia {
+
+/// What is known of a frame before its pixels.
+struct FrameHeader {
+    std::string scene_name;
+    uint64_t scene_hash = 0;
+    Vec3d scene_origin;
+    std::string camera_name;
+    View view;
+    nlohmann::ordered_json options;  // of the command line
+    std::vector<double> intensities;
+};
+
+/// Header entries of frame.exr: version, scene, settings, camera matrices, units.
+ExrAttributes exr_attributes(const FrameHeader& header);
+
+/// Writes bands of layers to an EXR file and meters the background on the way.
+class FrameWriter {
+public:
+    FrameWriter(const std::string& path, const FrameHeader& header);
+    void write(const Band& band);
+    void finish() { writer_.finish(); }
+    const LuminanceHistogram& background_luminance() const { return histogram_; }
+
+private:
+    ExrWriter writer_;
+    LuminanceHistogram histogram_;
+};
+
+/// Writes text under a temporary name and renames it. Throws Error (render_failed) when that is impossible.
+void write_text(const std::string& path, const std::string& text);
+
+/// The object of frame.json. ev100: the exposure of the pictures beside it.
+nlohmann::ordered_json frame_json(const FrameHeader& header, double ev100, const Counters& counters);
+
+}  // namespace pluvia

@@ -1,0 +1,66 @@
+// Settings of `pluvia render` as the command line gives them, checked and turned into those of the renderer.
+#pragma once
+
+#include "renderer/image/depth_encoding.h"
+#include "renderer/transport/render.h"
+#include "shaders/sky.h"
+#include "shaders/sun_position.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+
+namespace pluvia {
+
+/// Everything that decides over the bytes of a frame, in the units of the command line.
+struct RenderOptions {
+    std::string scene, output;
+    std::string camera;
+    int frame = 0;
+    double fps = 24;
+    std::string size = "1024x512";
+    int spp = 64;
+    int bounces = -1;  // -1 = unlimited
+    std::vector<double> rain;
+    std::vector<double> wind = {0, 0, 0};
+    std::string composition = "physical";
+    double streak_gain = 24.5;
+    double streak_width = 1;
+    std::vector<double> camera_velocity = {0, 0, 0};
+    double hour = 12;
+    std::string date = "2024-09-22";
+    double latitude = 35.7, longitude = 139.7, utc_offset = 9;  // Tokyo
+    std::optional<double> sun_elevation, sun_azimuth;            // degrees
+    std::string weather;
+    double turbidity = 3;
+    std::string environment;
+    double environment_scale = 1;
+    std::optional<double> environment_illuminance;
+    std::optional<double> focal_length, f_number, focus;  // mm, -, m
+    double shutter = 1.0 / 60;
+    std::string exposure = "auto", view = "srgb";
+    std::string depth_encoding = "kitti16";
+    double depth_max = 100;
+    uint64_t seed = 0;
+    int threads = 0;
+    bool overwrite = false, json = false;
+    std::string progress = "bar";
+};
+
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// Throw Error (usage) naming the option, what was given and what is expected.
+CameraSettings camera_settings(const RenderOptions& options);
+RenderSettings render_settings(const RenderOptions& options);
+/// Empty where the exposure is measured from the picture.
+std::optional<double> exposure_ev100(const RenderOptions& options);
+/// The light that --environment or hour, place and weather ask for. With rain and no word about weather it rains from
+/// an overcast sky, which is said on stderr.
+Environment make_environment(const RenderOptions& options);
+
+/// Options that decide over the picture, with their values, as recorded in every file.
+nlohmann::ordered_json to_json(const RenderOptions& options);
+
+}  // namespace pluvia
