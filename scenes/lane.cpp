@@ -1,5 +1,5 @@
 // The plan of the lane: which houses stand where, what stands before them, and the cameras.
-// The lane runs from z = 9 to z = -21.3 and is 3 m wide (x from -1.5 to 1.5); the view ends at a house across it, where
+// The lane runs from z = 6 to z = -21.3 and is 3 m wide (x from -1.5 to 1.5); the view ends at a house across it, where
 // the lane turns right. The houses' parts are in the lane_*.cpp files beside this one.
 #include "scenes/builders.h"
 #include "scenes/lane.h"
@@ -27,9 +27,9 @@ Transform standing(double x, double z, double degrees = 0) {
 }
 
 void add_houses(Street& street, const Finishes& f) {
-    add_house(street, f, {.name = "house_left_1", .scene_from_facade = left_wall(-1.5, 8), .width = 9, .ground = "BBBBBBBBBB",
-                          .upper = "bbbbpbbpbb", .boards = f.red_wood, .posts = f.brown_wood, .walls = f.ochre_plaster,
-                          .eave_height = 5.4f, .lower_roof_depth = 0, .downpipes = {8.9f}});
+    add_house(street, f, {.name = "house_left_1", .scene_from_facade = left_wall(-1.5, 5), .width = 6, .ground = "BBBBBB",
+                          .upper = "bbpbpb", .boards = f.red_wood, .posts = f.brown_wood, .walls = f.ochre_plaster,
+                          .eave_height = 5.4f, .lower_roof_depth = 0, .downpipes = {5.9f}});
     add_garden_wall(street, f, "garden_wall", 3.2f, 2.15f, left_wall(-1.48, -1));
     add_house(street, f, {.name = "house_left_back", .scene_from_facade = left_wall(-4.6, 0.5), .width = 4.7f, .ground = "BBBB",
                           .upper = "pvvp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
@@ -39,12 +39,12 @@ void add_houses(Street& street, const Finishes& f) {
                           .eave_height = 5.35f, .downpipes = {0.15f}});
     add_house(street, f, {.name = "house_left_3", .scene_from_facade = left_wall(-1.56, -9.6), .width = 6.3f, .ground = "sslsgds",
                           .upper = "pmmpmmp", .boards = f.grey_wood, .posts = f.brown_wood, .walls = f.white_plaster,
-                          .eave_height = 4.95f, .lower_roof_depth = 0.65f, .downpipes = {6.15f}});
+                          .eave_height = 5.3f, .lower_roof_depth = 0.65f, .downpipes = {6.15f}});
     add_house(street, f, {.name = "house_left_4", .scene_from_facade = left_wall(-1.44, -15.9), .width = 5.4f, .ground = "bldllb",
                           .upper = "pspwwp", .boards = f.red_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
                           .eave_height = 5.1f});
-    add_house(street, f, {.name = "house_right_1", .scene_from_facade = right_wall(1.5, -1), .width = 9, .ground = "bbkbbBBBBB",
-                          .upper = "pvpppvppvp", .boards = f.red_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
+    add_house(street, f, {.name = "house_right_1", .scene_from_facade = right_wall(1.5, -1), .width = 6.3f, .ground = "bbkbbBB",
+                          .upper = "pvpppvp", .boards = f.red_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
                           .eave_height = 5.15f, .lower_roof_depth = 0.7f, .downpipes = {0.12f}});
     add_house(street, f, {.name = "house_right_2", .scene_from_facade = right_wall(1.54, -7.3), .width = 6.3f, .ground = "bdlbggb",
                           .upper = "pvpwpvp", .boards = f.brown_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
@@ -55,17 +55,18 @@ void add_houses(Street& street, const Finishes& f) {
     add_house(street, f, {.name = "house_right_4", .scene_from_facade = right_wall(1.52, -18.1), .width = 5.4f, .ground = "slsdsb",
                           .upper = "pmmpmm", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.white_plaster,
                           .eave_height = 4.9f, .downpipes = {0.15f}});
-    add_house(street, f, {.name = "house_end", .scene_from_facade = end_wall(-4, -21.4), .width = 10.8f, .ground = "bbblsdlbklbb",
-                          .upper = "ppmmpwwppmmp", .boards = f.brown_wood, .posts = f.dark_wood, .walls = f.white_plaster,
-                          .eave_height = 4.7f, .lower_roof_depth = 0.6f, .downpipes = {3.1f}});
+    add_house(street, f, {.name = "house_end", .scene_from_facade = end_wall(-1.9, -21.4), .width = 8.8f, .ground = "slsdlbklbb",
+                          .upper = "pmmpwwpmmp", .boards = f.brown_wood, .posts = f.dark_wood, .walls = f.white_plaster,
+                          .eave_height = 4.7f, .lower_roof_depth = 0.6f, .downpipes = {1.5f}});
     add_house(street, f, {.name = "house_corner", .scene_from_facade = right_wall(6.9, -21.6), .width = 3.7f, .ground = "sdls",
                           .upper = "pwwp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.ochre_plaster});
-    add_house(street, f, {.name = "house_behind", .scene_from_facade = facing_away(5, 13), .width = 10, .ground = "sslssdssls",
-                          .upper = "pwwppwwppp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.white_plaster});
+    add_house(street, f, {.name = "house_behind", .scene_from_facade = facing_away(4, 10), .width = 8, .ground = "ssgdss",
+                          .upper = "pwppwp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.white_plaster,
+                          .lower_roof_depth = 0});
 }
 
 void add_ground(Street& street, const Finishes& f) {
-    add_paving(street, f, {.name = "paving", .half_width = 1.5f, .near = 12, .far = -21.35f, .scene_from_paving = {}});
+    add_paving(street, f, {.name = "paving", .half_width = 1.5f, .near = 9, .far = -21.35f, .scene_from_paving = {}});
     add_paving(street, f, {.name = "side_paving", .half_width = 1.55f, .near = 0, .far = -5.3f,
                            .scene_from_paving = translate({1.5, 0.001, -19.75}) * rotate_y(-std::numbers::pi / 2)});
     Assembly block;  // bare ground under houses and gardens
@@ -81,7 +82,7 @@ void add_lamps(Street& street, const Finishes& f) {
     place(street, "lane/globe_lamp_3", globe, on_left(2.3, -15.0, -1.53));
     place(street, "lane/globe_lamp_4", globe, translate({4.4, 2.4, -21.35}));
 
-    place_once(street, "lane/wall_lantern", wall_lantern(f), on_left(3.95, -6.2));
+    place_once(street, "lane/wall_lantern", wall_lantern(f), on_left(3.95, -10.3, -1.54));
 
     const auto white = add_meshes(street, "white_lantern", paper_lantern(f, false));
     const auto red = add_meshes(street, "red_lantern", paper_lantern(f, true));
@@ -99,7 +100,7 @@ void add_lamps(Street& street, const Finishes& f) {
 }
 
 void add_signs(Street& street, const Finishes& f) {
-    place_once(street, "lane/signboard", hanging_board(f), on_left(4.95, -5.1));
+    place_once(street, "lane/signboard", hanging_board(f), on_left(4.87, -10.3, -1.54));
     place_once(street, "lane/standing_sign", standing_sign(f, false), standing(-0.72, -7.6, 14));
     place_once(street, "lane/standing_sign_tall_1", standing_sign(f, true), standing(0.98, -11.0, -16));
     place_once(street, "lane/standing_sign_tall_2", standing_sign(f, true), standing(-0.95, -13.4, 20));
@@ -176,7 +177,7 @@ void add_props(Street& street, const Finishes& f) {
     place_once(street, "lane/utility_pole", utility_pole(f), translate({1.28, -0.05, -18.35}));
     Assembly cables;
     for (const float x : {-0.65f, -0.3f, 0.3f, 0.65f}) {
-        add_cable(cables, f, {1.28f + x, 7.52f, -18.21f}, {0.4f + x, 7.4f, 14}, 0.55f);
+        add_cable(cables, f, {1.28f + x, 7.52f, -18.21f}, {0.4f + x, 7.4f, 10}, 0.55f);
         add_cable(cables, f, {1.28f + x, 6.82f, -18.21f}, {0.1f + 2 * x, 6.3f, -24}, 0.15f);
     }
     add_cable(cables, f, {1.2f, 6.2f, -18.2f}, {-1.3f, 4.6f, -9.8f}, 0.35f, 0.011f);

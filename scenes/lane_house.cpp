@@ -115,8 +115,8 @@ private:
         const float pitch = bay.width() / float(count);
         for (int i = 0; i < count; ++i) {
             const float x = bay.left + pitch * float(i), front = -0.03f + chance_(-0.006f, 0.006f);
-            add_box(assembly_[house_.boards], {x + 0.002f, bay.bottom, recess}, {x + pitch - 0.002f, bay.top, front},
-                    chance_.tint(0.4f), 0.006f);
+            add_plank(assembly_[house_.boards], {x + 0.002f, bay.bottom, front - 0.02f}, {x + pitch - 0.002f, bay.top, front}, 0.006f,
+                      chance_.tint(0.4f));
         }
         if (bay.top - bay.bottom > 1)  // battens over every second joint
             for (int i = 2; i < count; i += 2) {

@@ -51,9 +51,10 @@ Assembly globe_lamp(const Finishes& f) {
 
 Assembly wall_lantern(const Finishes& f) {
     Assembly a;
-    constexpr float reach = 0.42f;
-    add_tube(a[f.iron], rounded({{0, 0, 0}, {0, -0.12f, 0.2f}, {0, -0.3f, reach}, {0, -0.22f, reach}}, 0.14f, 6), 0.014f, 8);
-    add_box(a[f.iron], {-0.05f, -0.09f, 0}, {0.05f, 0.09f, 0.012f}, {}, 0.004f);
+    constexpr float reach = 1.0f;  // past the signboard that hangs at the same place
+    add_tube(a[f.iron], rounded({{0, -0.34f, 0}, {0, -0.4f, 0.2f}, {0, -0.4f, reach}, {0, -0.22f, reach}}, 0.14f, 6), 0.014f, 8);
+    add_tube(a[f.iron], rounded({{0, -0.7f, 0}, {0, -0.68f, 0.3f}, {0, -0.42f, 0.55f}}, 0.2f, 5), 0.01f, 8);
+    add_box(a[f.iron], {-0.05f, -0.75f, 0}, {0.05f, -0.28f, 0.012f}, {}, 0.004f);
     // Six panes between bars, a pointed hat above.
     constexpr int sides = 6;
     constexpr float bottom = -0.2f, top = 0.14f, low_radius = 0.085f, high_radius = 0.115f;

@@ -23,7 +23,7 @@ void add_slab(Shape& shape, float x0, float x1, float z_near, float z_far, float
 /// Iron grate: a frame with bars across.
 void add_grate(Shape& shape, float x0, float x1, float z_near, float z_far, float top) {
     for (const float x : {x0, x1 - 0.025f}) add_box(shape, {x, top - 0.03f, z_far}, {x + 0.025f, top, z_near});
-    const int bars = int((z_near - z_far) / 0.04f);
+    const int bars = int((z_near - z_far) / 0.05f);
     for (int i = 0; i <= bars; ++i) {
         const float z = z_far + (z_near - z_far - 0.014f) * float(i) / float(bars);
         add_box(shape, {x0 + 0.025f, top - 0.03f, z}, {x1 - 0.025f, top, z + 0.014f});

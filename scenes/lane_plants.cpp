@@ -14,7 +14,7 @@ namespace {
 void add_leaf(Shape& shape, Vec3 stalk, Vec3 direction, float leaf_length, const Tint& tint) {
     const Vec3 side = normalize(cross(direction, Vec3(0.01f, 1, 0.02f))), up = cross(side, direction);
     const float half = 0.36f * leaf_length;
-    add_sheet(shape, 2, 2, [&](float s, float t) {
+    add_sheet(shape, 2, 1, [&](float s, float t) {
         const float across = 2 * s - 1;
         return SheetPoint{stalk + direction * (leaf_length * t) + side * (across * half) +
                               up * (leaf_length * (0.12f * std::abs(across) - 0.25f * t * t)),

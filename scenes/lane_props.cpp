@@ -53,16 +53,15 @@ Assembly meter_box(const Finishes& f) {
 Assembly bamboo_fence(const Finishes& f, float width) {
     Assembly a;
     Chance chance{0xba3b};
-    constexpr float height = 0.78f, depth = 0.5f, pitch = 0.034f;
+    constexpr float height = 0.78f, depth = 0.5f, pitch = 0.036f;
     const int count = int(width / pitch);
     for (int i = 0; i < count; ++i) {  // split canes bent from the wall to the ground
-        std::vector<Vec3> cane;
         const float x = pitch * (float(i) + 0.5f), lift = chance(-0.006f, 0.006f);
-        for (int k = 0; k <= 8; ++k) {
-            const float phi = 0.5f * pi * float(k) / 8;
-            cane.push_back({x, (height + lift) * std::cos(phi), 0.03f + (depth + lift) * std::sin(phi)});
-        }
-        add_tube(a[f.bamboo], cane, 0.0165f, 6, chance.tint(0.5f));
+        add_sheet(a[f.bamboo], 3, 7, [&](float s, float t) {
+            const float phi = 0.5f * pi * (1 - t), round = pi * s, r = 0.5f * pitch * std::sin(round) + lift;
+            return SheetPoint{{x - 0.5f * pitch * std::cos(round), (height + r) * std::cos(phi), 0.03f + (depth + r) * std::sin(phi)},
+                              {s * pitch, -t * 1.1f}};
+        }, chance.tint(0.5f));
     }
     for (const float t : {0.12f, 0.5f, 0.85f}) {
         const float phi = 0.5f * pi * t;

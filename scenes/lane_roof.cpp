@@ -31,8 +31,8 @@ void add_tiles(Shape& shape, float width, float slope_length, Chance& chance) {
                 const float y = y0 + t * (exposure + tile_overlap), z = tile_profile(s) + lift * (1 - t) + skew * s;
                 return SheetPoint{{x0 + s * pitch, y, z}, {s * pitch, -y}};
             };
-            add_sheet(shape, 8, 1, top, tint);
-            add_sheet(shape, 8, 1, [&](float s, float t) {
+            add_sheet(shape, 6, 1, top, tint);
+            add_sheet(shape, 6, 1, [&](float s, float t) {
                 SheetPoint p = top(s, 0);
                 p.position.z -= (1 - t) * 0.02f;
                 p.uv.y += 1 - t;
@@ -42,7 +42,7 @@ void add_tiles(Shape& shape, float width, float slope_length, Chance& chance) {
     // The first course ends in round faces under its rolls.
     for (int column = 0; column < columns; ++column) {
         const Vec3 centre = {pitch * (float(column) + 0.86f), -0.012f, 0.036f};
-        add_tube(shape, {centre, centre + Vec3(0, -0.022f, 0)}, 0.042f, 10, chance.tint(0.4f));
+        add_tube(shape, {centre, centre + Vec3(0, -0.022f, 0)}, 0.042f, 7, chance.tint(0.4f));
     }
 }
 
@@ -98,12 +98,12 @@ void add_eave(Assembly& assembly, const Finishes& f, const Eave& eave, Chance& c
     });
     for (float x = 0.25f; x < eave.width; x += 0.9f) {
         std::vector<Vec3> hanger;
-        for (int i = 0; i <= 6; ++i) {
-            const float phi = pi * float(i) / 6;
+        for (int i = 0; i <= 4; ++i) {
+            const float phi = pi * float(i) / 4;
             hanger.push_back(axis + Vec3(x, -0.059f * std::sin(phi), 0.059f * std::cos(phi)));
         }
         hanger.push_back(axis + Vec3(x, 0.045f, -0.12f));
-        add_tube(assembly[f.iron], hanger, 0.006f, 5);
+        add_tube(assembly[f.iron], hanger, 0.006f, 4);
     }
 }
 

@@ -107,6 +107,14 @@ void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint, float bevel
         face({corner(a), corner(b), inner(b), inner(a)});
 }
 
+void add_plank(Shape& shape, Vec3 lower, Vec3 upper, float edge, const Tint& tint) {
+    const float xs[4] = {lower.x, lower.x + edge, upper.x - edge, upper.x}, zs[4] = {lower.z, upper.z, upper.z, lower.z};
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 left = {xs[k], lower.y, zs[k]}, right = {xs[k + 1], lower.y, zs[k + 1]}, up = {0, upper.y - lower.y, 0};
+        add_quad(shape, {left, right, right + up, left + up}, {xs[k], -lower.y}, {xs[k + 1], -upper.y}, tint);
+    }
+}
+
 void add_beam(Shape& shape, Vec3 start, Vec3 end, Vec3 up, float width, float height, const Tint& tint) {
     const Vec3 along = normalize(end - start), across = normalize(cross(along, up)), top = cross(across, along);
     const float beam_length = length(end - start);

@@ -38,6 +38,10 @@ void add_quad(Shape& shape, const std::array<Vec3, 4>& corners, Vec2 uv_lower_le
 /// bevel: width and depth of the chamfer around the +z face, 0 = none; less than half of every edge.
 void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint = {}, float bevel = 0);
 
+/// Upright board that is seen from +z alone: its front and the rounded-off edges to its left and right, two thirds
+/// fewer triangles than a box. edge: width of these.
+void add_plank(Shape& shape, Vec3 lower, Vec3 upper, float edge, const Tint& tint = {});
+
 /// Box from `start` to `end` (centres of its end faces), width across and height along `up`, which need not be
 /// perpendicular to it. The grain runs along it.
 void add_beam(Shape& shape, Vec3 start, Vec3 end, Vec3 up, float width, float height, const Tint& tint = {});

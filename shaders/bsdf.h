@@ -20,15 +20,19 @@ using Bsdf = std::variant<MetallicRoughness, Pane>;
 using PreparedBsdf = std::variant<PreparedMetallicRoughness, PreparedPane>;
 
 /// True where all lobes are deltas, so that sampling lights is in vain.
-inline bool is_delta(const Bsdf& bsdf) { return std::holds_alternative<Pane>(bsdf); }
-inline bool is_delta(const PreparedBsdf& bsdf) { return std::holds_alternative<PreparedPane>(bsdf); }
+inline bool is_delta(const Bsdf& bsdf) {
+    return std::holds_alternative<Pane>(bsdf);
+}
+inline bool is_delta(const PreparedBsdf& bsdf) {
+    return std::holds_alternative<PreparedPane>(bsdf);
+}
 
 /// Computes what depends on wo alone.
 inline PreparedBsdf prepare(const Bsdf& bsdf, Vec3 wo) {
     return std::visit([&](const auto& model) -> PreparedBsdf { return prepare(model, wo); }, bsdf);
 }
 
-/// f |cos theta_i| and the pdf of sample() for wi; zero for delta lobes and where either direction is below the surface.
+/// f |cos theta_i| and the pdf of sample() for wi; zero for delta lobes and where a direction is below the surface.
 inline BsdfValue evaluate(const PreparedBsdf& bsdf, Vec3 wi) {
     return std::visit([&](const auto& model) { return evaluate(model, wi); }, bsdf);
 }
@@ -40,7 +44,9 @@ inline std::optional<BsdfSample> sample(const PreparedBsdf& bsdf, float u_lobe, 
 }
 
 /// The same for a caller that asks only once per wo.
-inline BsdfValue evaluate(const Bsdf& bsdf, Vec3 wo, Vec3 wi) { return evaluate(prepare(bsdf, wo), wi); }
+inline BsdfValue evaluate(const Bsdf& bsdf, Vec3 wo, Vec3 wi) {
+    return evaluate(prepare(bsdf, wo), wi);
+}
 inline std::optional<BsdfSample> sample(const Bsdf& bsdf, Vec3 wo, float u_lobe, Vec2 u) {
     return sample(prepare(bsdf, wo), u_lobe, u);
 }

@@ -1,7 +1,7 @@
 // What evaluating and sampling a BSDF give back, and the conventions that all of them share. Read next: bsdf.h.
-// Everything is in the shading frame: +z is the shading normal on the side of the viewer; wo (towards the viewer) and wi
-// (towards the light) are unit vectors that leave the surface. Turning the frame for surfaces seen from behind is the
-// caller's work: a direction wo with z <= 0 sees black.
+// Everything is in the shading frame: +z is the shading normal on the side of the viewer; wo (towards the viewer) and
+// wi (towards the light) are unit vectors that leave the surface. Turning the frame for surfaces seen from behind is
+// the caller's work: a direction wo with z <= 0 sees black.
 #pragma once
 
 #include "renderer/core/rgb.h"

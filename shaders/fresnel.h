@@ -45,7 +45,9 @@ constexpr float schlick_weight(float cos_i) {
     return m2 * m2 * m;
 }
 /// Schlick's reflectance with f0 at normal incidence and f90 at grazing.
-constexpr Rgb fresnel_schlick(Rgb f0, float f90, float cos_i) { return mix(f0, Rgb(f90), schlick_weight(cos_i)); }
+constexpr Rgb fresnel_schlick(Rgb f0, float f90, float cos_i) {
+    return mix(f0, Rgb(f90), schlick_weight(cos_i));
+}
 
 /// Direction in which light that arrives from wo goes on behind the interface; empty under total internal reflection.
 /// n: unit normal with dot(n, wo) >= 0; eta: index of the far side over that of the near side.

@@ -1,6 +1,6 @@
-// The metallic-roughness material of glTF: a rough metal, or a rough dielectric coat over a diffuse base, or a mixture of
-// the two by `metallic`. All are reciprocal; nothing is lost to missing multiple scattering: with a white base colour the
-// surface reflects exactly what it receives. Conventions: bsdf_sample.h; the microfacet distribution: microfacet.h.
+// The metallic-roughness material of glTF: a rough metal, or a rough dielectric coat over a diffuse base, or a mixture
+// of the two by `metallic`. All are reciprocal; nothing is lost to missing multiple scattering: with a white base
+// colour the surface reflects all it receives. Conventions: bsdf_sample.h; the microfacet distribution: microfacet.h.
 #pragma once
 
 #include "shaders/bsdf_sample.h"
@@ -14,22 +14,23 @@ struct MetallicRoughness {
     Rgb base_color = Rgb(1);  // reflectance of metal and of the diffuse base, 0 to 1
     float metallic = 0;       // share of the surface that is metal, 0 to 1
     float roughness = 1;      // perceptual, 0 to 1; its square is the width alpha of the microfacet distribution
-    float specular = 1;       // strength of the dielectric reflection (KHR_materials_specular), 0 to 1; 0: a pure Lambert
+    float specular = 1;       // strength of the dielectric reflection (KHR_materials_specular), 0 to 1; 0: pure Lambert
     float ior = 1.5f;         // of the dielectric coat, >= 1
 };
 
 /// A MetallicRoughness seen from one direction: what depends on wo alone is computed once for all wi.
 struct PreparedMetallicRoughness {
     Vec3 wo;
-    bool lambert = false;       // no specular reflection at all: only `diffuse` and `wo` are used
-    float specular_chance = 0, diffuse_chance = 0, multiple_chance = 0;  // probabilities of the lobes in sample()
-    Rgb f0;                     // Schlick's reflectance at normal incidence
-    float f90 = 0;              // and at grazing
+    bool lambert = false;  // no specular reflection at all: only `diffuse` and `wo` are used
+    // Probabilities of the lobes in sample().
+    float specular_chance = 0, diffuse_chance = 0, multiple_chance = 0;
+    Rgb f0;         // Schlick's reflectance at normal incidence
+    float f90 = 0;  // and at grazing
     Ggx ggx;
     GgxView view;
     GgxAlbedoRow albedo;
-    Rgb multiple;               // multiple scattering: f = multiple (1 - E(wi)), 1/sr
-    Rgb diffuse;                // diffuse base: f = diffuse (1 - E_d(wi)), 1/sr; Lambert: f itself
+    Rgb multiple;  // multiple scattering: f = multiple (1 - E(wi)), 1/sr
+    Rgb diffuse;   // diffuse base: f = diffuse (1 - E_d(wi)), 1/sr; Lambert: f itself
     // Albedo of the coat as a linear function of the tabulated ones: E_d = constant + lost_slope lost + ...
     float coat_constant = 0, coat_lost_slope = 0, coat_grazing_slope = 0;
 

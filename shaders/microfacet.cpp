@@ -16,8 +16,8 @@ double roughness_of(int index, int count) {
 }
 
 /// Integrates over the visible normals of Dupuy and Benyoub 2023, in double because smooth surfaces lose little.
-/// Even steps x give the heights x^3 (10 - 15 x + 6 x^2): normals near the cap's rim, few but far from the mean, would be
-/// missed by even heights, and a sum of even steps is most exact where the weight fades out at both ends.
+/// Even steps x give the heights x^3 (10 - 15 x + 6 x^2): normals near the cap's rim, few but far from the mean, would
+/// be missed by even heights, and a sum of even steps is most exact where the weight fades out at both ends.
 GgxAlbedoRow::Texel integrate_texel(double mu, double roughness) {
     constexpr int azimuths = 32, heights = 96;
     static const auto cosines = [] {
@@ -64,7 +64,7 @@ const std::vector<GgxAlbedoRow::Texel>& texels() {
                 const double x = double(column) / (GgxAlbedoRow::columns - 1), ratio = x * x / (1 + alpha);
                 t.push_back(integrate_texel(std::min(1.0, alpha * ratio / (1 - ratio)), roughness));
             }
-            // At mu = 1 Schlick's term is nothing, but its fifth root is not: it would bend the last column for no gain.
+            // At mu = 1 Schlick's term is nothing, but its fifth root is not: it would bend the last interval.
             t.back().shift = 2 * t[t.size() - 2].shift - t[t.size() - 3].shift;
         }
         return t;
@@ -105,7 +105,9 @@ std::pair<int, float> find_entry(float roughness, int count) {
 }  // namespace
 
 GgxAlbedoRow::GgxAlbedoRow(float roughness)
-    : roughness_(roughness), alpha_(roughness * roughness), column_scale_(std::sqrt(1 + alpha_) * float(columns - 1)),
+    : roughness_(roughness),
+      alpha_(roughness * roughness),
+      column_scale_(std::sqrt(1 + alpha_) * float(columns - 1)),
       log_range_(std::log(1 + 1 / alpha_)) {
     const auto [row, offset] = find_entry(roughness, rows);
     lower_ = &texels()[size_t(row) * columns];

@@ -1,5 +1,5 @@
-// The GGX distribution of microfacets (isotropic, Smith shadowing) and its tabulated albedos. Everything is in the shading
-// frame of bsdf_sample.h. Materials built on it: metallic_roughness.h.
+// The GGX distribution of microfacets (isotropic, Smith shadowing) and its tabulated albedos. Everything is in the
+// shading frame of bsdf_sample.h. Materials built on it: metallic_roughness.h.
 // Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces"; Heitz 2014, "Understanding the
 // Masking-Shadowing Function in Microfacet-Based BRDFs".
 #pragma once
@@ -13,9 +13,9 @@
 
 namespace pluvia {
 
-/// Smallest perceptual roughness; smoother surfaces are taken as this one, with alpha = 0.001. Directions carry errors of 6e-8, which the half
-/// vector inherits divided by |wo + wi|: at this width a slope is still known to 0.3 % of the width where wo and wi are
-/// one percent above the horizon. The reflection blurs over 0.1 degrees, a fifth of the sun's disk, and looks smooth.
+/// Smallest perceptual roughness; smoother surfaces are taken as this one, with alpha = 0.001. Directions carry errors
+/// of 6e-8, which the half vector inherits divided by |wo + wi|: at this width a slope is still known to 0.3 % of the
+/// width where wo and wi are one percent above the horizon. The reflection blurs over 0.1 degrees.
 constexpr float min_roughness = 0.031622777f;
 
 /// The distribution for one width alpha, the square of perceptual roughness.
@@ -73,20 +73,21 @@ struct GgxAlbedo {
     float grazing;  // mean of (1 - wo.h)^5 over what returns
 };
 
-/// Albedos for one roughness, and a choice of directions by what is lost: the place between two rows of a table that is built at first use (about 0.1 s).
+/// Albedos for one roughness, and a choice of directions by what is lost: the place between two rows of a table that is
+/// built at first use, by quadrature in about 0.1 s.
 class GgxAlbedoRow {
 public:
     GgxAlbedoRow() = default;
     /// roughness: perceptual, min_roughness to 1.
     explicit GgxAlbedoRow(float roughness);
 
-    /// mu: 0 to 1. Error below 6e-4.
+    /// mu: 0 to 1. Error below 8e-4.
     GgxAlbedo at(float mu) const {
-        // The table's columns are even in sqrt(mu / (mu + alpha)): masking turns on where mu is about alpha, so that the
+        // The table's columns are even in sqrt(mu / (mu + alpha)): masking turns on where mu is about alpha, so the
         // same columns serve the smoothest and the roughest surface; the root resolves the steep start at mu = 0.
         const float inverse = 1 / (mu + alpha_), smooth = alpha_ * inverse;
         const float x = std::sqrt(mu * inverse) * column_scale_;
-        const int column = std::clamp(int(x), 0, columns - 2);  // so that a NaN stays a number, not an address
+        const int column = std::clamp(int(x), 0, columns - 2);  // a NaN stays a value, not an address
         const float tx = x - float(column);
         const Texel *a = lower_ + column, *b = a + columns;
         const auto blend = [&](float a0, float a1, float b0, float b1) {
@@ -104,8 +105,8 @@ public:
     /// Its density with respect to mu.
     float pdf_lost_cosine(float mu) const { return 1 / (mu + alpha_) / log_range_; }
 
-    /// What is tabulated varies slowly over all widths: the loss divided by (alpha / (mu + alpha))^2, and the difference
-    /// between mu and the cosine at which Schlick's term equals its mean, divided by the perceptual roughness.
+    /// What is tabulated varies slowly over all widths: the loss divided by (alpha / (mu + alpha))^2, and, divided by
+    /// the perceptual roughness, the difference between mu and the cosine at which Schlick's term equals its mean.
     struct Texel {
         float loss, shift;
     };

@@ -37,14 +37,17 @@ inline PreparedPane prepare(const Pane& pane, Vec3 wo) {
     if (wo.z <= 0) return seen;
     seen.reflectance = pane_reflectance(wo.z, pane.ior);
     seen.transmittance = pane.tint * (1 - seen.reflectance);
-    seen.reflection_chance = seen.reflectance / (seen.reflectance + luminance(seen.transmittance));
+    const float total = seen.reflectance + luminance(seen.transmittance);
+    if (total > 0) seen.reflection_chance = seen.reflectance / total;
     return seen;
 }
 
 /// Always zero: both lobes are deltas.
-inline BsdfValue evaluate(const PreparedPane&, Vec3) { return {}; }
+inline BsdfValue evaluate(const PreparedPane&, Vec3) {
+    return {};
+}
 
-/// Empty where wo is not above the surface, or nothing is reflected or passes. u_lobe: uniform in [0, 1).
+/// Empty where wo is not above the surface. u_lobe: uniform in [0, 1).
 inline std::optional<BsdfSample> sample(const PreparedPane& pane, float u_lobe, Vec2) {
     if (pane.wo.z <= 0) return std::nullopt;
     if (u_lobe < pane.reflection_chance) {

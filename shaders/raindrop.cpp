@@ -48,9 +48,9 @@ double fold_turn(double turn) {
     return std::abs(std::remainder(turn, 2 * std::numbers::pi));
 }
 
-/// Light per bin. The drop's disk is cut into rings even in the angle of incidence, which resolves both the centre, where
-/// turns are small, and the rim, where reflectances change fast. Each ring's light is spread evenly over the range of
-/// turns between its borders.
+/// Light per bin. The drop's disk is cut into rings even in the angle of incidence, which resolves both the centre,
+/// where turns are small, and the rim, where reflectances change fast. Each ring's light is spread evenly over the
+/// range of turns between its borders.
 std::vector<float> integrate_light() {
     constexpr int rings = 16384;
     constexpr double bins_per_radian = bins / std::numbers::pi, step = std::numbers::pi / 2 / rings;

@@ -1,6 +1,6 @@
 // How a spherical water drop scatters light, by geometric optics: the paths of a ray by the number of its passages, and
-// the phase function of a drop whose disk is lit evenly. Diffraction is left out (it stays within 0.1 degrees of straight
-// on for drops above 1 mm), and so is absorption: albedo 1.
+// the phase function of a drop whose disk is lit evenly. Diffraction is left out (it stays within 0.1 degrees of
+// straight on for drops above 1 mm), and so is absorption: albedo 1.
 // The turn angle is between the directions in which light travels before and after the drop: 0 = straight through.
 #pragma once
 

@@ -60,8 +60,6 @@ struct PoissonCheck {
     double variance_sigmas() const { return (squares - expected) / std::sqrt(variance_of_squares); }
 };
 
-constexpr double test_intensities[] = {0.1, 10, 100, 500};
-
 // The cell that is at this time 500 m high above the world's origin: well within the rain.
 CellIndex cell_in_rain(const DropPopulation& population, int size_class, double time, Vec3d aside = {}) {
     return lattice_at(population, size_class, time).cell_at(Vec3d(0, 500, 0) + aside);
@@ -119,7 +117,7 @@ TEST_CASE("each intensity alone has Poisson counts, Marshall-Palmer diameters an
             for_each_test_cell(population, c, time, [&](CellIndex cell) {
                 cells[c].push_back(drops_in(population, c, cell, time, 500));
             });
-        for (double intensity : test_intensities) {
+        for (double intensity : {0.1, 10.0, 100.0, 500.0}) {
             CAPTURE(time);
             CAPTURE(intensity);
             double flux_deviation = 0, flux_variance = 0;

@@ -19,7 +19,7 @@ Vec3 direction(float mu, float phi = 0) {
     return {sine * std::cos(phi), sine * std::sin(phi), mu};
 }
 
-/// Directional albedo from the weights of samples on a jittered grid of the three random numbers, one number per channel.
+/// Directional albedo, per channel, from the weights of samples on a jittered grid of the three random numbers.
 struct Albedo {
     RunningMean r, g, b;
 };
@@ -59,68 +59,6 @@ std::vector<MetallicRoughness> materials() {
 
 }  // namespace
 
-TEST_CASE("Fresnel reflectance has its known values") {
-    CHECK(fresnel_dielectric(1.0, 1.5).mean() == doctest::Approx(0.04).epsilon(1e-12));
-    CHECK(normal_reflectance(1.5f) == doctest::Approx(0.04).epsilon(1e-6));
-    CHECK(fresnel_dielectric(0.0, 1.5).mean() == 1.0);
-    const double brewster = std::cos(std::atan(1.5));
-    CHECK(fresnel_dielectric(brewster, 1.5).p == doctest::Approx(0).epsilon(1e-12));
-    CHECK(fresnel_dielectric(brewster, 1.5).s == doctest::Approx(0.1479289941).epsilon(1e-9));  // (1.25/3.25)^2
-    // The same from both sides of the interface, and total beyond the critical angle.
-    const double cos_t = std::sqrt(1 - (1 - 0.5 * 0.5) / (1.5 * 1.5));
-    CHECK(fresnel_dielectric(0.5, 1.5).s == doctest::Approx(fresnel_dielectric(cos_t, 1 / 1.5).s).epsilon(1e-12));
-    CHECK(fresnel_dielectric(0.5, 1.5).p == doctest::Approx(fresnel_dielectric(cos_t, 1 / 1.5).p).epsilon(1e-12));
-    CHECK(fresnel_dielectric(0.7, 1 / 1.5).mean() == 1.0);
-    CHECK(fresnel_schlick(Rgb(0.2f), 0.5f, 1) == Rgb(0.2f));
-    CHECK(fresnel_schlick(Rgb(0.2f), 0.5f, 0) == Rgb(0.5f));
-}
-
-TEST_CASE("refraction follows Snell's law and ends at the critical angle") {
-    const Vec3 n = {0, 0, 1}, wo = direction(0.6f, 1);
-    const auto wi = refract(wo, n, 1.5f);
-    REQUIRE(wi);
-    CHECK(length(*wi) == doctest::Approx(1).epsilon(1e-6));
-    CHECK(wi->z == doctest::Approx(-std::sqrt(1 - 0.64 / 2.25)).epsilon(1e-6));
-    CHECK(wi->x == doctest::Approx(-wo.x / 1.5f).epsilon(1e-6));
-    CHECK(wi->y == doctest::Approx(-wo.y / 1.5f).epsilon(1e-6));
-    CHECK_FALSE(refract(direction(0.7f), n, 1 / 1.5f));
-}
-
-TEST_CASE("the GGX albedo table agrees with the closed form at alpha = 1") {
-    // There D = 1/pi and masking_root = 1, so that E(mu) = 1 - mu log(1 + 1/mu) and 1 - E_avg = 4/3 log 2 - 1/3.
-    const GgxAlbedoRow row(1);
-    for (const float mu : cosines) {
-        CAPTURE(mu);
-        CHECK(std::abs(row.at(mu).lost - mu * std::log(1 + 1 / mu)) < 6e-4);  // the table's stated error
-    }
-    CHECK(average_ggx_albedo(1).lost == doctest::Approx(0.5908629).epsilon(1e-3));
-}
-
-TEST_CASE("the GGX albedo table agrees with samples at all roughness") {
-    for (const float roughness : {min_roughness, 0.07f, 0.119f, 0.3f, 0.49f, 0.75f}) {
-        const Ggx ggx(roughness * roughness);
-        const GgxAlbedoRow row(roughness);
-        for (const float mu : {0.999f, 0.5f, 0.1f, 0.02f, 1e-3f}) {
-            const GgxView view(ggx, mu);
-            const Vec3 wo = direction(mu);
-            RunningMean lost, grazing;
-            for (uint64_t i = 0; i < 40'000; ++i) {
-                const Vec3 h = sample_visible_normal(ggx, wo, uniform_2d(11, i, 0));
-                const float cos_h = dot(wo, h), mu_i = 2 * cos_h * h.z - mu;
-                // G2 / G1: what a sample of visible normals returns.
-                const float returned = mu_i > 0 ? visibility(ggx, view, mu_i) * mu_i * 2 * (mu + view.root) : 0;
-                lost.add(1 - returned);
-                grazing.add(returned * schlick_weight(cos_h));
-            }
-            CAPTURE(roughness);
-            CAPTURE(mu);
-            CAPTURE(lost.mean());
-            CHECK(lost.agrees_with(row.at(mu).lost, 8e-4));  // the table's stated error
-            CHECK(grazing.agrees_with(row.at(mu).grazing, 8e-4));
-        }
-    }
-}
-
 TEST_CASE("a white surface reflects all light at any roughness and angle, metal, plastic or between") {
     for (const float roughness : roughnesses) {
         for (const float metallic : {0.0f, 0.5f, 1.0f}) {
@@ -155,6 +93,23 @@ TEST_CASE("no surface reflects more light than it receives") {
     }
 }
 
+TEST_CASE("a grey metal absorbs at each of its bounces between microfacets") {
+    // At alpha = 1, where 1 - E_avg is known, bounce by bounce: of what is lost at first, F^2 E_avg leaves at the
+    // second, F^3 (1 - E_avg) E_avg at the third, and so on, F the cosine-weighted mean of Schlick's reflectance.
+    const double f0 = 0.5, average_lost = 0.5908629, f = f0 + (1 - f0) / 21;
+    double later = 0, arriving = f;
+    for (int bounce = 2; bounce < 60; ++bounce, arriving *= f * average_lost)
+        later += arriving * f * (1 - average_lost);
+    const GgxAlbedoRow row(1);
+    for (const float mu : {1.0f, 0.5f, 0.1f}) {
+        const GgxAlbedo first = row.at(mu);
+        const double expected = f0 * (1 - first.lost - first.grazing) + first.grazing + later * first.lost;
+        const Bsdf metal = MetallicRoughness{.base_color = Rgb(0.5f), .metallic = 1};
+        CAPTURE(mu);
+        CHECK(std::abs(measure_albedo(metal, direction(mu), 20).g.mean() - expected) < 1e-3);  // as for white
+    }
+}
+
 TEST_CASE("without specular reflection the material is exactly Lambert's") {
     const Rgb color(0.8f, 0.4f, 0.2f);
     const Bsdf bsdf = MetallicRoughness{.base_color = color, .roughness = 0.3f, .specular = 0};
@@ -179,7 +134,8 @@ TEST_CASE("black plastic at normal incidence mirrors four percent") {
 TEST_CASE("the metallic-roughness material is reciprocal") {
     for (const MetallicRoughness& material : materials()) {
         for (uint64_t i = 0; i < 200; ++i) {
-            const Vec3 a = sample_cosine_hemisphere(uniform_2d(17, i, 0)), b = sample_cosine_hemisphere(uniform_2d(17, i, 2));
+            const Vec3 a = sample_cosine_hemisphere(uniform_2d(17, i, 0));
+            const Vec3 b = sample_cosine_hemisphere(uniform_2d(17, i, 2));
             const Rgb ab = evaluate(Bsdf(material), a, b).f_cos / b.z, ba = evaluate(Bsdf(material), b, a).f_cos / a.z;
             CAPTURE(material.roughness);
             CAPTURE(material.metallic);
@@ -191,10 +147,14 @@ TEST_CASE("the metallic-roughness material is reciprocal") {
 }
 
 TEST_CASE("samples of the metallic-roughness material follow its pdf") {
-    const MetallicRoughness cases[] = {{.metallic = 1, .roughness = 0},    {.metallic = 1, .roughness = 0.2f},
-                                       {.metallic = 1, .roughness = 0.5f}, {.metallic = 1, .roughness = 1},
-                                       {.roughness = 0.1f},                {.roughness = 0.6f},
-                                       {.specular = 0},                    {.metallic = 0.5f, .roughness = 0.3f}};
+    const MetallicRoughness cases[] = {{.metallic = 1, .roughness = 0},
+                                       {.metallic = 1, .roughness = 0.2f},
+                                       {.metallic = 1, .roughness = 0.5f},
+                                       {.metallic = 1, .roughness = 1},
+                                       {.roughness = 0.1f},
+                                       {.roughness = 0.6f},
+                                       {.specular = 0},
+                                       {.metallic = 0.5f, .roughness = 0.3f}};
     for (const MetallicRoughness& material : cases) {
         for (const float mu : {1.0f, 0.6f, 0.15f, 0.02f}) {
             const Vec3 wo = direction(mu, 0.4f);
@@ -206,7 +166,9 @@ TEST_CASE("samples of the metallic-roughness material follow its pdf") {
             const auto pdf = [&](Vec3 wi) { return double(evaluate(bsdf, wi).pdf); };
             const float roughness = std::max(min_roughness, material.roughness);
             const SphereGrid grid = {.axis = direction(mu, 0.4f + pi),  // the mirror direction
-                                     .width = 0.5 * roughness * roughness, .rings = 40, .azimuths = 20};
+                                     .width = 0.5 * roughness * roughness,
+                                     .rings = 40,
+                                     .azimuths = 20};
             const ChiSquare result = test_directions(draw, pdf, 200'000, grid);
             CAPTURE(material.metallic);
             CAPTURE(material.roughness);
@@ -320,4 +282,8 @@ TEST_CASE("a pane's tint colours what passes, not what is mirrored") {
     REQUIRE(black);
     CHECK(black->weight.r == doctest::Approx(reflectance));
     CHECK_FALSE(black->transmitted);
+    // A pane that neither mirrors nor passes.
+    const auto nothing = sample(Pane{.tint = Rgb(0), .ior = 1}, direction(1), 0.5f, {});
+    REQUIRE(nothing);
+    CHECK(is_black(nothing->weight));
 }

@@ -57,16 +57,17 @@ TEST_CASE("a drop absorbs no light, whichever way it is met") {
 }
 
 TEST_CASE("the paths of a ray through a drop have the weights and turns of a hand calculation") {
-    // Distance from the axis in radii; weights of outer reflection, passage, one inner reflection; their turns in degrees.
-    const double rows[][7] = {{0, .0204, .9597, .0196, 180, 0, 180},        {0.4, .0207, .9590, .0198, 132.8, 12.2, 157.3},
-                              {0.6, .0231, .9545, .0216, 106.3, 20.2, 146.7}, {0.8, .0391, .9248, .0333, 73.7, 32.5, 138.7},
-                              {0.95, .1572, .7187, .0987, 36.4, 52.7, 141.8}, {0.99, .4220, .3455, .1326, 16.2, 67.9, 151.9}};
+    // Distance from the axis in radii; weights of outer reflection, passage and one inner reflection; turns in degrees.
+    const double rows[][7] = {
+        {0, .0204, .9597, .0196, 180, 0, 180},          {0.4, .0207, .9590, .0198, 132.8, 12.2, 157.3},
+        {0.6, .0231, .9545, .0216, 106.3, 20.2, 146.7}, {0.8, .0391, .9248, .0333, 73.7, 32.5, 138.7},
+        {0.95, .1572, .7187, .0987, 36.4, 52.7, 141.8}, {0.99, .4220, .3455, .1326, 16.2, 67.9, 151.9}};
     for (const auto& row : rows) {
         CAPTURE(row[0]);
         const DropPaths paths = drop_paths(std::asin(row[0]));
         for (int order = 0; order < 3; ++order) {
             CAPTURE(order);
-            CHECK(std::abs(paths.weight[order] - row[1 + order]) < 0.6e-4);                          // as printed
+            CHECK(std::abs(paths.weight[order] - row[1 + order]) < 0.6e-4);                            // as printed
             CHECK(std::abs(std::acos(std::cos(paths.turn[order])) / degree - row[4 + order]) < 0.06);  // as printed
         }
     }
@@ -91,7 +92,7 @@ TEST_CASE("reflected and transmitted light follow their closed forms") {
         const double middle = (theta + 0.125) * degree, expected = reflected_phase(middle) + transmitted_phase(middle);
         CHECK(double(drop_phase(float(std::cos(middle)))) == doctest::Approx(expected).epsilon(0.01));
     }
-    // Between the second rainbow and the first (Alexander's band) only the outer reflection remains of the lowest orders.
+    // Between the second rainbow and the first (Alexander's band) only 5 % are not reflected outside.
     for (double theta = 131; theta < 137.5; theta += 0.5) {
         CAPTURE(theta);
         const double middle = (theta + 0.125) * degree;
@@ -103,10 +104,10 @@ TEST_CASE("reflected and transmitted light follow their closed forms") {
 }
 
 TEST_CASE("a drop sends light where ray tracing found it") {
-    // Bounds of the turn angle in degrees and the share between them. Tolerance: the table is rounded to 0.0001, and the
-    // 0.0005 of light that is reflected inside more than six times goes one way here.
-    const double rows[][3] = {{0, 10, .1124},  {10, 20, .2422}, {20, 30, .2336},  {30, 40, .1689},
-                              {40, 50, .1036}, {50, 60, .0523}, {60, 70, .0205},  {70, 80, .0056},
+    // Bounds of the turn angle in degrees and the share between them. Tolerance: the table is rounded to 0.0001, and
+    // the 0.0005 of light that is reflected inside six times or more goes one way here.
+    const double rows[][3] = {{0, 10, .1124},   {10, 20, .2422},   {20, 30, .2336},   {30, 40, .1689},
+                              {40, 50, .1036},  {50, 60, .0523},   {60, 70, .0205},   {70, 80, .0056},
                               {80, 130, .0163}, {130, 140, .0150}, {140, 150, .0194}, {150, 180, .0101}};
     for (const auto& row : rows) {
         CAPTURE(row[0]);
@@ -136,7 +137,9 @@ TEST_CASE("the mean cosine of a drop is 0.7685") {
 TEST_CASE("directions drawn from a drop follow its phase function") {
     const Vec3 axes[] = {{0, 0, 1}, normalize(Vec3(-1, 2, -0.5f))};
     for (const Vec3 direction : axes) {
-        const auto sample = [&](uint64_t i) { return std::optional(sample_drop_phase(direction, uniform_2d(3, i, 0))); };
+        const auto sample = [&](uint64_t i) {
+            return std::optional(sample_drop_phase(direction, uniform_2d(3, i, 0)));
+        };
         const auto pdf = [&](Vec3 w) { return double(drop_phase(dot(direction, w))); };
         // Rings as fine as the bins, whose steps would be overlooked within wider ones.
         const SphereGrid grid = {.axis = direction, .width = 0.5, .rings = 400, .azimuths = 4};
@@ -154,6 +157,6 @@ TEST_CASE("directions at the ends of a drop's phase function are finite and of u
         CHECK(length(w) == doctest::Approx(1).epsilon(1e-6));
         CHECK(drop_phase(w.y) > 0);
     }
-    CHECK(drop_phase(1.0000002f) == drop_phase(1));    // dot products of unit vectors round past one
+    CHECK(drop_phase(1.0000002f) == drop_phase(1));  // dot products of unit vectors round past one
     CHECK(drop_phase(-1.0000002f) == drop_phase(-1));
 }

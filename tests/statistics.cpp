@@ -70,9 +70,9 @@ private:
         }
         return sum * (c.ring_max - c.ring_min) * (c.azimuth_max - c.azimuth_min);
     }
-    /// Halves until the change is a two-hundredth of the count's own deviation, which cannot be seen in the statistic, but
-    /// at least three times, so as not to overlook a narrow feature. Ten times narrow an edge of the pdf, such as the
-    /// horizon, to 1/1024 of a cell.
+    /// Halves until the change is a two-hundredth of the count's own deviation, which cannot be seen in the statistic,
+    /// but at least three times, so as not to overlook a narrow feature. Ten times narrow an edge of the pdf, such as
+    /// the horizon, to 1/1024 of a cell.
     double refine(const Cell& c, double coarse, int depth) const {
         const double ring = 0.5 * (c.ring_min + c.ring_max), azimuth = 0.5 * (c.azimuth_min + c.azimuth_max);
         const std::array<Cell, 4> parts = {{{c.ring_min, ring, c.azimuth_min, azimuth},

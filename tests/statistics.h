@@ -1,6 +1,6 @@
 // Statistics by which the tests judge random results: means with their errors, and samples against their pdf.
-// Numbers are hashes of a seed that is fixed in the test, so a result never changes from run to run; a threshold of five
-// sigma leaves one false alarm in 3.5 million tests when a seed or a model changes.
+// Numbers are hashes of a seed that is fixed in the test, so a result never changes from run to run; a threshold of
+// five sigma leaves one false alarm in 3.5 million tests when a seed or a model changes.
 #pragma once
 
 #include "renderer/core/random.h"

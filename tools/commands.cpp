@@ -33,6 +33,9 @@ int run(int argc, const char* const* argv) {
     } catch (const std::bad_alloc&) {
         std::cerr << "pluvia: error: memory: there is not enough for this\n";
         return int(ExitCode::render_failed);
+    } catch (const std::exception& e) {  // of a library; better a line than an abort
+        std::cerr << "pluvia: error: program: " << e.what() << "\n";
+        return int(ExitCode::render_failed);
     }
 }
 

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 void prepare_folder(const RenderOptions& options) {
-    if (!options.overwrite && fs::exists(options.output + "/frame.json"))
-        throw usage_error(options.output, "holds a finished frame already (expected an empty folder, or --overwrite)");
     std::error_code error;
+    if (!options.overwrite && fs::exists(options.output + "/frame.json", error))
+        throw usage_error(options.output, "holds a finished frame already (expected an empty folder, or --overwrite)");
     fs::create_directories(options.output, error);
     if (error) throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
     fs::remove(options.output + "/frame.json", error);  // it names a finished frame, and there is none until the end

@@ -62,6 +62,12 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--threads", o.threads, "0 = all; changes no byte")->capture_default_str()->group(output);
     command.add_option("--progress", o.progress, "bar, json or none, on stderr")->capture_default_str()->group(output);
     command.add_flag("--json", o.json, "print what was done as JSON on stdout")->group(output);
+    for (CLI::Option* option : command.get_options()) {
+        // A script may append options to a command line: of values given twice the last one wins.
+        if (option->get_items_expected_max() <= 1) option->take_last();
+        // Lists are written with commas, so that a list before the scene's name does not swallow it.
+        else option->allow_extra_args(false);
+    }
     command.footer("Example:\n  pluvia render lane.glb --camera front --rain 10,50 --hour 20 -o out/lane");
 }
 

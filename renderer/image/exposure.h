@@ -24,7 +24,8 @@ public:
     void add(Rgb radiance);
     void merge(const LuminanceHistogram& other);
 
-    /// Exposure value that shows the mean log luminance, taken between the 5th and 95th percentile, as 0.18; within
+    /// Exposure value that shows the mean log luminance, taken between the 5th and 95th percentile, as 0.18 by day. Below
+    /// 64 cd/m2 each stop less of light is shown a quarter of a stop darker, down to two stops: night stays night. Within
     /// min_auto_ev100 to max_auto_ev100, and 0 when nothing was counted.
     double auto_ev100() const;
 

@@ -25,7 +25,8 @@ struct Covered {
 std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, float exposure_time);
 
 /// Union of the intervals in which drops have covered a ray. Added front to back, the returned fractions are the exact
-/// weights of the drops, and what is not covered at the end is the weight of the background: all weights add up to 1.
+/// weights of the drops, and what is not covered at the end is the weight of the background: together they are 1 to
+/// float rounding.
 class ExposureUnion {
 public:
     /// Covers begin to end and returns the part of the exposure that no earlier interval covered, 0 to end - begin.

@@ -22,8 +22,8 @@ namespace pluvia {
 
 constexpr double rain_height = 1000;  // metres above the lowest ground within which there are drops
 
-/// Diameters d1 <= D < d2 (metres) that share a lattice. The edges keep the drops that jump within 1/60 s to about half
-/// a percent.
+/// Diameters d1 <= D <= d2 (metres) that share a lattice. The edges keep the drops that jump within 1/60 s to about
+/// half a percent.
 struct SizeClass {
     double d1, d2;
     double cell_edge;  // metres

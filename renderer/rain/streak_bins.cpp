@@ -15,10 +15,10 @@ struct Outline {
 };
 
 // The outline contains every pixel position whose rays can meet the drop; false where it is never in front. Seen
-// through the lens's centre, a point of the drop is at most f r sqrt(1 + tan^2) / (z - r) from its centre's picture, tan being
-// the angle off the axis (Cauchy-Schwarz on the difference of the two projections); a ray from the lens's rim is off by
-// the blur radius at the depth of that point. Along the path the inverse depth is linear on the picture and both are
-// convex in it, so that the disks between the ends stay in the hull.
+// through the lens's centre, a point of the drop is at most f r sqrt(1 + tan^2) / (z - r) from its centre's picture,
+// tan being that of the angle off the axis (Cauchy-Schwarz on the difference of the two projections); a ray from the
+// lens's rim is off by the blur radius at the depth of that point. Along the path the inverse depth is linear on the
+// picture and both are convex in it, so that the disks between the ends stay in the hull.
 bool find_outline(const Streak& streak, const View& view, Outline& outline) {
     const double contact = contact_depth(streak), r = streak.radius, f = view.focal_pixels;
     const Vec3d start(streak.start), velocity(streak.velocity);

@@ -50,7 +50,8 @@ Elements find_elements(const tinygltf::Model& model, int index, const std::strin
     if (accessor.sparse.isSparse) throw input_error(accessor_where, "is sparse, which is not supported");
     const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
     const int component_size = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
-    if (components <= 0 || component_size <= 0 || component_size > 4)
+    const bool is_signed_int = accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT;  // glTF has none
+    if (components <= 0 || component_size <= 0 || component_size > 4 || is_signed_int)
         throw input_error(accessor_where, fmt::format("has an unknown type (got {} of component {})", accessor.type,
                                                       accessor.componentType));
     const auto bytes = buffer_view_bytes(model, accessor.bufferView, accessor_where);

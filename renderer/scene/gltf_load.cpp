@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace pluvia {
@@ -33,22 +35,22 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
         const auto found = primitive.attributes.find(key);
         return found == primitive.attributes.end() ? -1 : found->second;
     };
-    if (attribute("POSITION") < 0) throw input_error(where, "has no POSITION");
+    if (attribute("POSITION") == -1) throw input_error(where, "has no POSITION");
     const auto p = read_floats(model, attribute("POSITION"), 3, where);
     for (size_t i = 0; i < p.size(); i += 3) mesh.positions.emplace_back(p[i], p[i + 1], p[i + 2]);
-    if (const int a = attribute("NORMAL"); a >= 0) {
+    if (const int a = attribute("NORMAL"); a != -1) {
         const auto n = read_floats(model, a, 3, where);
         for (size_t i = 0; i < n.size(); i += 3) mesh.normals.emplace_back(n[i], n[i + 1], n[i + 2]);
     }
-    if (const int a = attribute("TEXCOORD_0"); a >= 0) {
+    if (const int a = attribute("TEXCOORD_0"); a != -1) {
         const auto uv = read_floats(model, a, 2, where);
         for (size_t i = 0; i < uv.size(); i += 2) mesh.uvs.push_back({uv[i], uv[i + 1]});
     }
-    if (const int a = attribute("TANGENT"); a >= 0) {
+    if (const int a = attribute("TANGENT"); a != -1) {
         const auto t = read_floats(model, a, 4, where);
         for (size_t i = 0; i < t.size(); i += 4) mesh.tangents.push_back({{t[i], t[i + 1], t[i + 2]}, t[i + 3]});
     }
-    if (const int a = attribute("COLOR_0"); a >= 0) {
+    if (const int a = attribute("COLOR_0"); a != -1) {
         const int components = component_count(model, a) == 4 ? 4 : 3;
         const auto c = read_floats(model, a, components, where);
         for (size_t i = 0; i < c.size(); i += components) {
@@ -57,7 +59,7 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
         }
     }
     std::vector<uint32_t> indices;
-    if (primitive.indices >= 0) {
+    if (primitive.indices != -1) {
         indices = read_indices(model, primitive.indices, where);
     } else {
         indices.resize(mesh.positions.size());
@@ -66,9 +68,15 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
     if (indices.size() % 3 != 0)
         throw input_error(where, fmt::format("is not made of whole triangles (got {} indices)", indices.size()));
     for (size_t i = 0; i < indices.size(); i += 3) mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    if (primitive.material < -1 || primitive.material >= int(model.materials.size()))
+        throw input_error(where, fmt::format("material does not exist (got {}, expected below {})", primitive.material,
+                                             model.materials.size()));
     mesh.material = primitive.material >= 0 ? primitive.material : int(model.materials.size());
     return mesh;
 }
+
+// Far more than any file has; a chain of nodes is followed by recursion, which must not use up the stack.
+constexpr int max_depth = 1000;
 
 /// Walks the node tree and adds what hangs on it, with transforms composed in double precision.
 class NodeWalk {
@@ -76,26 +84,32 @@ public:
     NodeWalk(const tinygltf::Model& model, const std::string& where, Scene& scene)
         : model_(model), where_(where), scene_(scene), first_part_(model.meshes.size(), -1), visited_(model.nodes.size()) {}
 
-    void walk(int index, const Transform& scene_from_parent, const std::string& parent_path) {
+    /// parent_path: empty for a root. depth: number of nodes above.
+    void walk(int index, const Transform& scene_from_parent, const std::string& parent_path, int depth = 0) {
         if (index < 0 || index >= int(model_.nodes.size()))
             throw input_error(where_, fmt::format("node does not exist (got {}, expected below {})", index,
                                                   model_.nodes.size()));
         if (visited_[index])
             throw input_error(where_, fmt::format("node {} is reached twice (expected a tree)", index));
+        if (depth >= max_depth)
+            throw input_error(where_, fmt::format("node {} lies too deep in the tree (expected at most {} levels)", index,
+                                                  max_depth));
         visited_[index] = true;
         const tinygltf::Node& node = model_.nodes[index];
         const std::string name = node.name.empty() ? fmt::format("node_{}", index) : node.name;
         const std::string path = parent_path.empty() ? name : parent_path + "/" + name;
         const Transform scene_from_node = scene_from_parent * transform_of(node);
-        if (node.mesh >= 0) add_mesh(node, path, scene_from_node);
-        if (node.camera >= 0) add_camera(node, name, scene_from_node);
+        if (!is_finite(scene_from_node.translation) || !std::isfinite(scene_from_node.determinant()))
+            throw input_error(fmt::format("{}: node \"{}\"", where_, path), "its transform is not finite (expected numbers)");
+        if (node.mesh != -1) add_mesh(node, path, scene_from_node);
+        if (node.camera != -1) add_camera(node, name, scene_from_node);
         if (node.extensions.count("KHR_lights_punctual")) add_light(node, name, scene_from_node);
-        for (const int child : node.children) walk(child, scene_from_node, path);
+        for (const int child : node.children) walk(child, scene_from_node, path, depth + 1);
     }
 
 private:
     void add_mesh(const tinygltf::Node& node, const std::string& path, const Transform& scene_from_node) {
-        if (node.mesh >= int(model_.meshes.size()))
+        if (node.mesh < 0 || node.mesh >= int(model_.meshes.size()))
             throw input_error(fmt::format("{}: node \"{}\"", where_, path), fmt::format("mesh does not exist (got {}, "
                               "expected below {})", node.mesh, model_.meshes.size()));
         if (node.skin >= 0) scene_.warnings.push_back(fmt::format("node \"{}\": its skin is not supported", path));
@@ -123,8 +137,12 @@ private:
     }
 
     void add_camera(const tinygltf::Node& node, const std::string& name, const Transform& scene_from_node) {
-        if (node.camera >= int(model_.cameras.size()))
-            throw input_error(where_, fmt::format("camera does not exist (got {})", node.camera));
+        const std::string node_where = fmt::format("{}: node \"{}\"", where_, name);
+        if (node.camera < 0 || node.camera >= int(model_.cameras.size()))
+            throw input_error(node_where, fmt::format("camera does not exist (got {}, expected below {})", node.camera,
+                                                      model_.cameras.size()));
+        if (scene_from_node.determinant() == 0)
+            throw input_error(node_where, "its transform leaves the camera no direction (got a scale of 0)");
         const tinygltf::Camera& source = model_.cameras[node.camera];
         if (source.type != "perspective") {
             scene_.warnings.push_back(fmt::format("camera \"{}\": {} projection is not supported", name, source.type));
@@ -132,17 +150,18 @@ private:
         }
         const double fov = source.perspective.yfov;
         if (!(fov > 0 && fov < std::numbers::pi))
-            throw input_error(fmt::format("{}: camera \"{}\"", where_, name),
-                              fmt::format("yfov is out of range (got {}, expected 0 to pi)", fov));
+            throw input_error(node_where, fmt::format("its camera's yfov is out of range (got {}, expected above 0 and "
+                                                      "below pi)", fov));
         scene_.cameras.push_back({source.name.empty() ? name : source.name, scene_from_node, fov});
     }
 
     void add_light(const tinygltf::Node& node, const std::string& name, const Transform& scene_from_node) {
         const tinygltf::Value& reference = node.extensions.at("KHR_lights_punctual").Get("light");
         const int index = reference.IsInt() ? reference.GetNumberAsInt() : -1;
+        const std::string node_where = fmt::format("{}: node \"{}\"", where_, name);
         if (index < 0 || index >= int(model_.lights.size()))
-            throw input_error(fmt::format("{}: node \"{}\"", where_, name), fmt::format("light does not exist (got {}, "
-                              "expected below {})", index, model_.lights.size()));
+            throw input_error(node_where, fmt::format("light does not exist (got {}, expected below {})", index,
+                                                      model_.lights.size()));
         const tinygltf::Light& source = model_.lights[index];
         PunctualLight light;
         light.name = source.name.empty() ? name : source.name;
@@ -150,6 +169,9 @@ private:
                               ? Rgb(float(source.color[0]), float(source.color[1]), float(source.color[2]))
                               : Rgb(1);
         light.intensity = color * float(source.intensity);
+        if (!(is_finite(light.intensity) && std::min({light.intensity.r, light.intensity.g, light.intensity.b}) >= 0))
+            throw input_error(node_where, fmt::format("its light's intensity is out of range (got {} times {} {} {}, "
+                              "expected 0 or more)", source.intensity, color.r, color.g, color.b));
         light.position = scene_from_node.translation;
         light.direction = Vec3(normalize(scene_from_node.vector({0, 0, -1})));
         light.inner_cone_angle = float(source.spot.innerConeAngle);
@@ -157,8 +179,10 @@ private:
         if (source.type == "directional") light.kind = PunctualLight::Kind::directional;
         else if (source.type == "spot") light.kind = PunctualLight::Kind::spot;
         else if (source.type != "point")
-            throw input_error(fmt::format("{}: light \"{}\"", where_, light.name),
-                              fmt::format("has an unknown type (got \"{}\", expected point, spot or directional)", source.type));
+            throw input_error(node_where, fmt::format("its light has an unknown type (got \"{}\", expected point, spot or "
+                                                      "directional)", source.type));
+        if (light.kind != PunctualLight::Kind::point && !is_finite(light.direction))
+            throw input_error(node_where, "its transform leaves the light no direction (got a scale of 0)");
         if (source.range > 0)
             scene_.warnings.push_back(fmt::format("light \"{}\": its range is ignored, light falls off with distance "
                                                   "squared", light.name));
@@ -181,10 +205,11 @@ Scene load_gltf(const std::string& path) {
     scene.name = std::filesystem::path(path).stem().string();
     if (!model.animations.empty()) scene.warnings.push_back("animations are not supported and have no effect");
 
-    read_materials(model, path, std::filesystem::path(path).parent_path().string(), scene);
+    read_materials(model, path, scene);
     if (model.scenes.empty()) throw input_error(path, "has no scene");
-    const int chosen = model.defaultScene >= 0 ? model.defaultScene : 0;
-    if (chosen >= int(model.scenes.size())) throw input_error(path, fmt::format("scene {} does not exist", chosen));
+    const int chosen = model.defaultScene == -1 ? 0 : model.defaultScene;
+    if (chosen < 0 || chosen >= int(model.scenes.size()))
+        throw input_error(path, fmt::format("scene does not exist (got {}, expected below {})", chosen, model.scenes.size()));
     NodeWalk walk(model, path, scene);
     for (const int node : model.scenes[chosen].nodes) walk.walk(node, Transform(), "");
     check(scene, path);

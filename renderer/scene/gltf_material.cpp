@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pluvia {
 namespace {
 
@@ -21,6 +23,8 @@ double extension_number(const tinygltf::Material& material, const char* extensio
     return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
 }
 
+constexpr double max_ior = 1e6;  // reflects all but 4e-6
+
 class MaterialReader {
 public:
     MaterialReader(const tinygltf::Model& model, const std::string& where, Scene& scene)
@@ -31,19 +35,26 @@ public:
         m.name = source.name;
         const auto& pbr = source.pbrMetallicRoughness;
         m.base_color = rgb_from(pbr.baseColorFactor, Rgb(1));
-        m.alpha = pbr.baseColorFactor.size() == 4 ? float(pbr.baseColorFactor[3]) : 1.0f;
-        m.metallic = float(pbr.metallicFactor);
-        m.roughness = float(pbr.roughnessFactor);
+        m.alpha = pbr.baseColorFactor.size() == 4 ? in_range(source, "alpha", pbr.baseColorFactor[3], 0, 1) : 1.0f;
+        m.metallic = in_range(source, "metallicFactor", pbr.metallicFactor, 0, 1);
+        m.roughness = in_range(source, "roughnessFactor", pbr.roughnessFactor, 0, 1);
         m.base_color_texture = texture(source, pbr.baseColorTexture, "base colour");
         m.metallic_roughness_texture = texture(source, pbr.metallicRoughnessTexture, "metallic-roughness");
         m.normal_texture = texture(source, source.normalTexture, "normal");
         m.normal_scale = float(source.normalTexture.scale);
-        m.emission = rgb_from(source.emissiveFactor, Rgb(0)) *
-                     float(extension_number(source, "KHR_materials_emissive_strength", "emissiveStrength", 1));
+        const double strength = extension_number(source, "KHR_materials_emissive_strength", "emissiveStrength", 1);
+        if (source.emissiveFactor.size() == 3)
+            m.emission = {emission(source, source.emissiveFactor[0] * strength),
+                          emission(source, source.emissiveFactor[1] * strength),
+                          emission(source, source.emissiveFactor[2] * strength)};
         m.emission_texture = texture(source, source.emissiveTexture, "emissive");
-        m.specular = float(extension_number(source, "KHR_materials_specular", "specularFactor", 1));
-        m.ior = float(extension_number(source, "KHR_materials_ior", "ior", 1.5));
-        m.transmission = float(extension_number(source, "KHR_materials_transmission", "transmissionFactor", 0));
+        m.specular = in_range(source, "specularFactor",
+                              extension_number(source, "KHR_materials_specular", "specularFactor", 1), 0, 1);
+        const double ior = extension_number(source, "KHR_materials_ior", "ior", 1.5);
+        // 0 stands for a surface that reflects everything (KHR_materials_ior, for converted older materials).
+        m.ior = in_range(source, "ior", ior == 0 ? max_ior : ior, 1, max_ior);
+        m.transmission = in_range(source, "transmissionFactor",
+                                  extension_number(source, "KHR_materials_transmission", "transmissionFactor", 0), 0, 1);
         m.alpha_mode = source.alphaMode == "MASK"    ? AlphaMode::mask
                        : source.alphaMode == "BLEND" ? AlphaMode::blend
                                                      : AlphaMode::opaque;
@@ -59,10 +70,23 @@ public:
     }
 
 private:
+    /// The value, or the nearest that is allowed and a warning: a surface that reflects more than it receives would
+    /// never let a path end.
+    float in_range(const tinygltf::Material& material, const char* name, double value, double lower, double upper) {
+        const double inside = std::clamp(value, lower, upper);
+        if (inside != value)
+            warn(material, fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name, value,
+                                       lower, upper, inside));
+        return float(inside);
+    }
+    float emission(const tinygltf::Material& material, double luminance) {
+        return in_range(material, "emission", luminance, 0, 1e12);  // cd/m2; the sun has 1.6e9
+    }
+
     template <class Info>
     int texture(const tinygltf::Material& material, const Info& info, const char* slot) {
-        if (info.index < 0) return -1;
-        if (info.index >= int(model_.textures.size()))
+        if (info.index == -1) return -1;
+        if (info.index < 0 || info.index >= int(model_.textures.size()))
             throw input_error(fmt::format("{}: material \"{}\"", where_, material.name),
                               fmt::format("its {} texture does not exist (got {}, expected below {})", slot, info.index,
                                           model_.textures.size()));
@@ -99,7 +123,7 @@ Texture read_texture(const tinygltf::Model& model, const tinygltf::Texture& sour
         texture.wrap_u = wrap_from(sampler.wrapS);
         texture.wrap_v = wrap_from(sampler.wrapT);
         texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    } else if (source.sampler >= 0) {
+    } else if (source.sampler != -1) {
         scene.warnings.push_back(fmt::format("texture {}: its sampler does not exist, the default is taken", index));
     }
     return texture;
@@ -107,7 +131,7 @@ Texture read_texture(const tinygltf::Model& model, const tinygltf::Texture& sour
 
 }  // namespace
 
-void read_materials(const tinygltf::Model& model, const std::string& where, const std::string& folder, Scene& scene) {
+void read_materials(const tinygltf::Model& model, const std::string& where, Scene& scene) {
     for (size_t i = 0; i < model.images.size(); ++i) {
         const tinygltf::Image& image = model.images[i];
         const std::string image_where = fmt::format("{}: image {} \"{}\"", where, i, image.name);
@@ -117,7 +141,8 @@ void read_materials(const tinygltf::Model& model, const std::string& where, cons
         else if (!image.image.empty())
             scene.images.push_back(decode_rgba8(std::as_bytes(std::span(image.image)), image_where));
         else
-            scene.images.push_back(read_rgba8(folder + "/" + image.uri));
+            throw input_error(image_where, fmt::format("its file cannot be read (got \"{}\", expected one beside the scene)",
+                                                       image.uri));
     }
     for (size_t i = 0; i < model.textures.size(); ++i)
         scene.textures.push_back(read_texture(model, model.textures[i], int(i), where, scene));

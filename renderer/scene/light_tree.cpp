@@ -52,43 +52,6 @@ LightBounds unite(LightBounds a, const LightBounds& b) {
     return a;
 }
 
-/// Upper estimate of the light that reaches the receiver from somewhere in the bounds; 0 only where none can.
-/// Source: Conty Estevez and Kulla 2018, section 4.3 (without their reflectance term).
-float importance(const LightBounds& light, const Receiver& receiver) {
-    const Vec3 to_receiver = receiver.position - light.centre();
-    // Inside and near the bounds 1/d2 means nothing: the box's own size takes over.
-    const float radius_squared = 0.25f * length_squared(light.upper - light.lower);
-    const float true_distance_squared = length_squared(to_receiver);
-    const float distance_squared = std::max(true_distance_squared, radius_squared);
-    if (distance_squared == 0) return light.power;
-    const Vec3 wi = true_distance_squared > 0 ? to_receiver / std::sqrt(true_distance_squared) : Vec3(0, 0, 1);
-
-    // Cone under which the bounds are seen, as a half angle around wi.
-    const bool inside = true_distance_squared <= radius_squared;
-    const float sin_seen_squared = inside ? 1 : radius_squared / true_distance_squared;
-    const float cos_seen = inside ? -1 : std::sqrt(std::max(0.0f, 1 - sin_seen_squared));
-    const float sin_seen = safe_sin(cos_seen);
-
-    float result = light.power / distance_squared;
-    if (light.cos_spread > -1) {
-        float cos_axis = dot(light.axis, wi);
-        if (light.two_sided) cos_axis = std::abs(cos_axis);
-        const float sin_axis = safe_sin(cos_axis), sin_spread = safe_sin(light.cos_spread);
-        const float cos_x = cos_difference(sin_axis, cos_axis, sin_spread, light.cos_spread);
-        const float sin_x = sin_difference(sin_axis, cos_axis, sin_spread, light.cos_spread);
-        const float cos_emitted = inside ? 1 : cos_difference(sin_x, cos_x, sin_seen, cos_seen);
-        if (cos_emitted <= light.cos_emission - 1e-5f) return 0;
-        result *= std::max(cos_emitted, 1e-3f);
-    }
-    if (!inside && length_squared(receiver.normal) > 0) {
-        const float cos_normal = -dot(wi, receiver.normal);
-        const float cos_received = cos_difference(safe_sin(cos_normal), cos_normal, sin_seen, cos_seen);
-        if (cos_received < -1e-5f) return 0;
-        result *= std::max(cos_received, 1e-3f);
-    }
-    return result;
-}
-
 /// Cost of splitting: power times the solid angle of emission times the surface of the box.
 float split_cost(const LightBounds& b) {
     if (b.power == 0) return 0;
@@ -103,6 +66,44 @@ float split_cost(const LightBounds& b) {
 
 }  // namespace
 
+LightTree::Cluster LightTree::make_cluster(const LightBounds& b) {
+    return {b.centre(), b.axis, 0.25f * length_squared(b.upper - b.lower), b.cos_spread, safe_sin(b.cos_spread),
+            b.cos_emission, b.power, b.two_sided};
+}
+
+/// Upper estimate of the light that reaches the receiver from somewhere in the bounds; 0 only where none can.
+/// Source: Conty Estevez and Kulla 2018, section 4.3 (without their reflectance term).
+float LightTree::importance(const Cluster& light, const Receiver& receiver) {
+    const Vec3 to_receiver = receiver.position - light.centre;
+    const float distance_squared = length_squared(to_receiver);
+    // Inside and near the bounds 1/d2 means nothing: the box's own size takes over.
+    const bool inside = distance_squared <= light.radius_squared;
+    float result = light.power / std::max(std::max(distance_squared, light.radius_squared), 1e-12f);
+    if (inside) return result;
+
+    const Vec3 wi = to_receiver / std::sqrt(distance_squared);
+    // Cone under which the bounds are seen, as a half angle around wi.
+    const float sin_seen_squared = light.radius_squared / distance_squared;
+    const float sin_seen = std::sqrt(sin_seen_squared), cos_seen = std::sqrt(1 - sin_seen_squared);
+    if (light.cos_spread > -1) {
+        float cos_axis = dot(light.axis, wi);
+        if (light.two_sided) cos_axis = std::abs(cos_axis);
+        const float sin_axis = safe_sin(cos_axis);
+        const float cos_x = cos_difference(sin_axis, cos_axis, light.sin_spread, light.cos_spread);
+        const float sin_x = sin_difference(sin_axis, cos_axis, light.sin_spread, light.cos_spread);
+        const float cos_emitted = cos_difference(sin_x, cos_x, sin_seen, cos_seen);
+        if (cos_emitted <= light.cos_emission - 1e-5f) return 0;
+        result *= std::max(cos_emitted, 1e-3f);
+    }
+    if (length_squared(receiver.normal) > 0) {
+        const float cos_normal = -dot(wi, receiver.normal);
+        const float cos_received = cos_difference(safe_sin(cos_normal), cos_normal, sin_seen, cos_seen);
+        if (cos_received < -1e-5f) return 0;
+        result *= std::max(cos_received, 1e-3f);
+    }
+    return result;
+}
+
 LightTree::LightTree(const std::vector<LightBounds>& lights) : leaf_of_light_(lights.size(), -1) {
     std::vector<std::pair<int, LightBounds>> powered;
     for (size_t i = 0; i < lights.size(); ++i)
@@ -112,14 +113,14 @@ LightTree::LightTree(const std::vector<LightBounds>& lights) : leaf_of_light_(li
     build(powered, 0, int(powered.size()), -1);
 }
 
-int LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end, int parent) {
+LightBounds LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end, int parent) {
     const int index = int(nodes_.size());
     nodes_.emplace_back().parent = parent;
     if (end - begin == 1) {
-        nodes_[index].bounds = lights[begin].second;
+        nodes_[index].cluster = make_cluster(lights[begin].second);
         nodes_[index].light = lights[begin].first;
         leaf_of_light_[lights[begin].first] = index;
-        return index;
+        return lights[begin].second;
     }
     Vec3 lower(1e30f, 1e30f, 1e30f), upper = -lower;
     for (int i = begin; i < end; ++i) {
@@ -158,21 +159,21 @@ int LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, int begin
             [&](const auto& light) { return bucket_of(light.second, best_axis) < best_bucket; });
         middle = int(first_above - lights.begin());
     }
-    const int first = build(lights, begin, middle, index);
-    const int second = build(lights, middle, end, index);
-    nodes_[index].second_child = second;
-    nodes_[index].bounds = unite(nodes_[first].bounds, nodes_[second].bounds);
-    return index;
+    const LightBounds first = build(lights, begin, middle, index);
+    nodes_[index].second_child = int(nodes_.size());
+    const LightBounds whole = unite(first, build(lights, middle, end, index));
+    nodes_[index].cluster = make_cluster(whole);
+    return whole;
 }
 
 std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, float u) const {
     if (nodes_.empty()) return std::nullopt;
     int index = 0;
     float probability = 1;
-    if (importance(nodes_[0].bounds, receiver) == 0) return std::nullopt;
+    if (importance(nodes_[0].cluster, receiver) == 0) return std::nullopt;
     while (nodes_[index].second_child >= 0) {
         const int first = index + 1, second = nodes_[index].second_child;
-        const float a = importance(nodes_[first].bounds, receiver), b = importance(nodes_[second].bounds, receiver);
+        const float a = importance(nodes_[first].cluster, receiver), b = importance(nodes_[second].cluster, receiver);
         if (a + b == 0) return std::nullopt;
         const float share = a / (a + b);
         if (u < share) {
@@ -188,11 +189,11 @@ std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, flo
 
 float LightTree::probability(const Receiver& receiver, int light) const {
     int index = leaf_of_light_[light];
-    if (index < 0 || importance(nodes_[0].bounds, receiver) == 0) return 0;
+    if (index < 0 || importance(nodes_[0].cluster, receiver) == 0) return 0;
     float probability = 1;
     for (int parent = nodes_[index].parent; parent >= 0; index = parent, parent = nodes_[index].parent) {
-        const float a = importance(nodes_[parent + 1].bounds, receiver);
-        const float b = importance(nodes_[nodes_[parent].second_child].bounds, receiver);
+        const float a = importance(nodes_[parent + 1].cluster, receiver);
+        const float b = importance(nodes_[nodes_[parent].second_child].cluster, receiver);
         if (a + b == 0) return 0;
         const float share = a / (a + b);
         probability *= index == parent + 1 ? share : 1 - share;

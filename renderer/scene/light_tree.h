@@ -47,13 +47,22 @@ public:
     float probability(const Receiver& receiver, int light) const;
 
 private:
+    /// Bounds as the descent uses them: a sphere around the box, angles as sines and cosines.
+    struct Cluster {
+        Vec3 centre, axis;
+        float radius_squared = 0, cos_spread = -1, sin_spread = 0, cos_emission = 0, power = 0;
+        bool two_sided = false;
+    };
     struct Node {
-        LightBounds bounds;
+        Cluster cluster;
         int second_child = -1;  // the first child follows its parent; -1 = leaf
         int light = -1;
         int parent = -1;
     };
-    int build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end, int parent);
+    static Cluster make_cluster(const LightBounds& bounds);
+    static float importance(const Cluster& light, const Receiver& receiver);
+    /// Returns the bounds of the subtree.
+    LightBounds build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end, int parent);
 
     std::vector<Node> nodes_;
     std::vector<int> leaf_of_light_;  // -1 = no power

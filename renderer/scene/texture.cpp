@@ -7,19 +7,19 @@
 namespace pluvia {
 namespace {
 
+/// i: at most one texel outside of what reduce() leaves, so that no division is needed.
 int wrap_index(int i, int size, Wrap wrap) {
     switch (wrap) {
     case Wrap::clamp: return std::clamp(i, 0, size - 1);
-    case Wrap::mirror: {
-        const int period = 2 * size;
-        const int k = ((i % period) + period) % period;
-        return k < size ? k : period - 1 - k;
-    }
-    default: return ((i % size) + size) % size;
+    case Wrap::mirror:
+        if (i < 0) return 0;
+        if (i >= 2 * size) return std::min(i - 2 * size, size - 1);
+        return i < size ? i : 2 * size - 1 - i;
+    default: return i < 0 ? i + size : i >= size ? i - size : i;
     }
 }
 
-/// Mirrored and repeated coordinates are brought near zero first: an int must hold the texel index.
+/// Mirrored coordinates to 0..2, repeated ones to 0..1, clamped ones near 0..1.
 float reduce(float x, Wrap wrap) {
     if (wrap == Wrap::clamp) return std::clamp(x, -1.0f, 2.0f);
     return wrap == Wrap::mirror ? x - 2 * std::floor(x / 2) : x - std::floor(x);

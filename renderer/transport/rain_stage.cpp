@@ -20,15 +20,18 @@ RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, std::vect
     : tracer_(&tracer), bins_(&bins), intensities_(std::move(intensities)), settings_(settings) {}
 
 bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
-                         std::vector<StreakHit>& hits, Counters& counters) const {
+                         RainScratch& scratch, Counters& counters) const {
     counters.count(Feature::streak_test);
-    find_hits(*bins_, segment.pixel, segment.view_ray, hits);
-    if (hits.empty()) return false;
-    thread_local std::vector<Rgb> light;
-    light.clear();
-    for (const StreakHit& hit : hits) light.push_back(streak_light(hit, segment, sampler, counters));
-    if (settings_.composition == Composition::paper) compose_paper(hits, light, segment, samples);
-    else compose_physical(hits, light, samples);
+    find_hits(*bins_, segment.pixel, segment.view_ray, scratch.hits);
+    if (scratch.hits.empty()) return false;
+    scratch.light.clear();
+    for (const StreakHit& hit : scratch.hits) scratch.light.push_back(streak_light(hit, segment, sampler, counters));
+    if (settings_.composition == Composition::paper) {
+        counters.count(Feature::paper_streak);
+        compose_paper(scratch, segment, samples);
+    } else {
+        compose_physical(scratch, samples);
+    }
     return true;
 }
 
@@ -79,14 +82,14 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, 
     return q >= 1 ? sum : sum / q;
 }
 
-void RainStage::compose_physical(const std::vector<StreakHit>& hits, const std::vector<Rgb>& light,
-                                 std::vector<RainSample>& samples) const {
+void RainStage::compose_physical(const RainScratch& scratch, std::vector<RainSample>& samples) const {
+    const auto& hits = scratch.hits;
     for (size_t i = 0; i < intensities_.size(); ++i) {
         ExposureUnion covered;
         RainSample sample;
         for (size_t k = 0; k < hits.size(); ++k) {
             if (bins_->streaks()[hits[k].streak].threshold_mm_per_h > intensities_[i]) continue;
-            sample.light += light[k] * covered.add(hits[k].covered.begin, hits[k].covered.end);
+            sample.light += scratch.light[k] * covered.add(hits[k].covered.begin, hits[k].covered.end);
         }
         sample.coverage = covered.total();
         samples[i] = sample;
@@ -94,8 +97,9 @@ void RainStage::compose_physical(const std::vector<StreakHit>& hits, const std::
 }
 
 /// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain L tau0/T times the streak's texture, in linear light.
-void RainStage::compose_paper(const std::vector<StreakHit>& hits, const std::vector<Rgb>& light,
-                              const CameraSegment& segment, std::vector<RainSample>& samples) const {
+void RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment,
+                              std::vector<RainSample>& samples) const {
+    const auto& hits = scratch.hits;
     for (size_t i = 0; i < intensities_.size(); ++i) {
         float transmittance = 1;
         RainSample sample;
@@ -108,7 +112,7 @@ void RainStage::compose_paper(const std::vector<StreakHit>& hits, const std::vec
             const float alpha = paper_alpha(hits[k].covered.fraction(), 2 * streak.radius, path);
             const float time = 0.5f * (hits[k].covered.begin + hits[k].covered.end) * bins_->exposure_time();
             const float texture = streak_texture(2 * streak.radius, time, streak.key);
-            sample.light += light[k] * (transmittance * alpha * texture * float(settings_.paper_gain));
+            sample.light += scratch.light[k] * (transmittance * alpha * texture * float(settings_.paper_gain));
             transmittance *= 1 - alpha;
         }
         sample.coverage = 1 - transmittance;

@@ -38,6 +38,12 @@ struct RainSample {
     Rgb light;
 };
 
+/// Buffers of a caller, so that no segment allocates.
+struct RainScratch {
+    std::vector<StreakHit> hits;
+    std::vector<Rgb> light;  // per hit
+};
+
 class RainStage {
 public:
     /// Keeps references to tracer and bins. intensities: in mm/h, any order.
@@ -46,13 +52,11 @@ public:
 
     /// samples: one per intensity, overwritten. False when no streak touches the segment: then samples are untouched.
     bool evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
-                  std::vector<StreakHit>& hits, Counters& counters) const;
+                  RainScratch& scratch, Counters& counters) const;
 
 private:
-    void compose_physical(const std::vector<StreakHit>& hits, const std::vector<Rgb>& light,
-                          std::vector<RainSample>& samples) const;
-    void compose_paper(const std::vector<StreakHit>& hits, const std::vector<Rgb>& light, const CameraSegment& segment,
-                       std::vector<RainSample>& samples) const;
+    void compose_physical(const RainScratch& scratch, std::vector<RainSample>& samples) const;
+    void compose_paper(const RainScratch& scratch, const CameraSegment& segment, std::vector<RainSample>& samples) const;
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler, Counters& counters) const;
 
     const PathTracer* tracer_;

@@ -50,7 +50,7 @@ struct Scratch {
     PixelSums sums;
     CentreDepth depth;
     std::vector<RainSample> rain;
-    std::vector<StreakHit> hits;
+    RainScratch streaks;
     std::vector<float> values;
 };
 
@@ -74,7 +74,7 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     seen.t_max = path.distance;
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
     const CameraSegment segment{pixel, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
-    if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.hits, counters)) return;
+    if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
     for (size_t i = 0; i < scratch.rain.size(); ++i) {
         const RainSample& rain = scratch.rain[i];
         if (!is_finite(rain.light)) {
@@ -98,8 +98,8 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
     if (!frame.bins) return;
     seen.t_max = depth.distance;
-    find_hits(*frame.bins, centre, seen, scratch.hits);
-    for (const StreakHit& h : scratch.hits) {
+    find_hits(*frame.bins, centre, seen, scratch.streaks.hits);
+    for (const StreakHit& h : scratch.streaks.hits) {
         const Streak& streak = frame.bins->streaks()[h.streak];
         const float z = h.covered.distance * seen.direction.z;
         if (2 * streak.radius * float(frame.view.focal_pixels) < z) continue;

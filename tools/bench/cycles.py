@@ -1,0 +1,49 @@
+"""Renders a glTF file in Blender's Cycles with an equirectangular environment, as the partner of `pluvia render`.
+
+Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED]
+ENVIRONMENT: an HDR or EXR file, or R,G,B. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+"""
+import sys
+import time
+
+import numpy
+
+numpy.bool = bool  # Blender 3.4's glTF importer uses the name that newer numpy has dropped
+import bpy
+
+scene_file, out, width, height, samples, environment = sys.argv[sys.argv.index("--") + 1 :][:6]
+seed = int(sys.argv[sys.argv.index("--") + 7]) if len(sys.argv) > sys.argv.index("--") + 7 else 0
+
+bpy.ops.wm.read_factory_settings(use_empty=True)
+bpy.ops.import_scene.gltf(filepath=scene_file)
+scene = bpy.context.scene
+scene.render.engine = "CYCLES"
+cycles = scene.cycles
+cycles.device, cycles.samples, cycles.seed = "CPU", int(samples), seed
+cycles.use_adaptive_sampling = cycles.use_denoising = False
+cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+for kind in ("max", "diffuse", "glossy", "transmission", "transparent_max"):
+    setattr(cycles, kind + "_bounces", 32)
+cycles.pixel_filter_type = "BOX"
+scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
+scene.render.resolution_percentage = 100
+scene.render.image_settings.file_format = "OPEN_EXR"
+scene.render.image_settings.color_depth = "32"
+scene.render.image_settings.color_mode = "RGB"
+scene.view_settings.view_transform = "Raw"
+scene.render.filepath = out
+scene.camera = next(o for o in scene.objects if o.type == "CAMERA")
+
+world = scene.world = bpy.data.worlds.new("world")
+world.use_nodes = True
+background = world.node_tree.nodes["Background"]
+if "," in environment:
+    background.inputs[0].default_value = (*map(float, environment.split(",")), 1)
+else:
+    picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
+    picture.image = bpy.data.images.load(environment)
+    world.node_tree.links.new(picture.outputs[0], background.inputs[0])
+
+start = time.time()
+bpy.ops.render.render(write_still=True)
+print("cycles: %.2f s, %d samples per pixel" % (time.time() - start, int(samples)))
