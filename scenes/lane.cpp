@@ -158,11 +158,9 @@ void add_plants(Street& street, const Finishes& f) {
 
 void add_props(Street& street, const Finishes& f) {
     place_once(street, "lane/bamboo_fence", bamboo_fence(f, 3.6f), left_wall(-1.45, 0.9));
-    const auto fence = add_meshes(street, "bamboo_fence_short", bamboo_fence(f, 1.8f));
-    place(street, "lane/bamboo_fence_2", fence, right_wall(1.46, -1.0));
-    place(street, "lane/bamboo_fence_3", fence, left_wall(-1.46, -19.4));
+    place_once(street, "lane/bamboo_fence_far", bamboo_fence(f, 1.8f), left_wall(-1.42, -19.4));
     const auto cooler = add_meshes(street, "air_conditioner", air_conditioner(f));
-    place(street, "lane/air_conditioner_1", cooler, left_wall(-1.53, -13.15) * translate({0, 2.55, 0.0}) * scale({1, 1, 1}));
+    place(street, "lane/air_conditioner_1", cooler, left_wall(-1.53, -13.15) * translate({0, 3.5, 0}));
     place(street, "lane/air_conditioner_2", cooler, right_wall(1.5, -5.3) * translate({0, 3.45, 0}));
     const auto meter = add_meshes(street, "meter_box", meter_box(f));
     place(street, "lane/meter_box_1", meter, on_left(1.95, -11.0, -1.54));

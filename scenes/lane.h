@@ -51,7 +51,6 @@ struct Eave {
     float width, wall_height, depth;
     float pitch = 0.42f;       // fall per metre
     float back = 0;            // metres that the roof continues behind the wall line, without real tiles
-    bool rafters = true;
 };
 void add_eave(Assembly& assembly, const Finishes& finishes, const Eave& eave, Chance& chance);
 /// Pipe from the gutter of an eave, back to the wall and down to the ground at x.
@@ -69,7 +68,7 @@ void add_paving(Street& street, const Finishes& finishes, const Paving& paving);
 // Things in their own frames: y up, front towards +z. Standing things have their origin on the ground, hanging and
 // mounted ones where they are fixed.
 Assembly globe_lamp(const Finishes& finishes);        // on a bracket
-Assembly wall_lantern(const Finishes& finishes);      // iron, on a gooseneck
+Assembly wall_lantern(const Finishes& finishes);      // iron, on an arm of 1 m
 Assembly paper_lantern(const Finishes& finishes, bool red);  // hangs by its cord
 Assembly floor_lantern(const Finishes& finishes);
 Assembly standing_sign(const Finishes& finishes, bool tall);

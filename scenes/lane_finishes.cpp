@@ -75,8 +75,7 @@ Image<Rgba8> window_picture(uint64_t seed) {
 /// Around the lantern once, top to bottom: ribs of bamboo, light strongest at mid-height, characters at two sides.
 Image<Rgba8> lantern_picture(const std::vector<std::string>& names, Rgb paper, Rgb writing) {
     Ink ink(1024, 512);
-    write_column(ink, names, 0, 70, 442, 0.11f);
-    for (const float x : {256.0f, 768.0f}) write_column(ink, names, x, 70, 442, 0.11f);
+    for (const float x : {256.0f, 768.0f}) write_column(ink, names, x, 70, 442, 0.14f);
     return paint_color(512, 256, [&](float x, float y) {
         const float rib = bump(y * 22 - std::round(y * 22), 0.12f);
         const float fibre = fractal_noise({x * 60, y * 30}, 60, 30, 3, 7);
@@ -151,13 +150,13 @@ void add_lit(Street& street, Finishes& f) {
                         lantern_picture({"sake"}, {1, 0.16f, 0.07f}, {0.02f, 0.01f, 0.01f}));
 
     Ink panel(512, 768);  // the standing sign by the door
-    write_column(panel, {"tsuki", "no", "ya"}, 200, 70, 560);
-    write_column(panel, {"cha", "sake"}, 390, 90, 400, 0.085f);
+    write_column(panel, {"tsuki", "no", "ya"}, 200, 70, 560, 0.135f);
+    write_column(panel, {"cha", "sake"}, 390, 90, 400, 0.1f);
     draw_line(panel, {130, 660}, {400, 660}, 22);
     draw_line(panel, {130, 660}, {180, 615}, 22);
     f.lit_sign = lit("lit_sign", Rgb(0.8f), nits(fluorescent, 420), written(panel, Rgb(1), {0.03f, 0.03f, 0.035f}));
     Ink column(256, 768);
-    write_column(column, {"hana", "no", "ki"}, 128, 60, 560);
+    write_column(column, {"hana", "no", "ki"}, 128, 60, 560, 0.125f);
     draw_line(column, {60, 640}, {196, 640}, 8);
     draw_line(column, {84, 690}, {172, 690}, 8);
     f.lit_sign_tall = lit("lit_sign_tall", Rgb(0.8f), nits(fluorescent, 380), written(column, Rgb(1), {0.04f, 0.02f, 0.02f}));

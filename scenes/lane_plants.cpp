@@ -69,11 +69,11 @@ Assembly palm(const Finishes& f, uint64_t seed, float height) {
         const float half = 0.13f * height;
         const Tint tint = leaf_tint(chance);
         const auto rib = [&](float t) { return out * (reach * t * t * 0.9f + 0.1f * reach * t) + Vec3(0, top * t * (1.6f - 0.75f * t), 0); };
-        add_sheet(a[f.frond], 2, 7, [&](float s, float t) {
+        add_sheet(a[f.frond], 2, 6, [&](float s, float t) {
             const float across = 2 * s - 1, along = 0.3f + 0.7f * t;
             return SheetPoint{rib(along) + side * (across * half) + Vec3(0, -0.25f * half * std::abs(across), 0), {s, 1 - t}};
         }, tint);
-        add_tube(a[f.leaf], {rib(0), rib(0.15f), rib(0.31f)}, 0.007f, 5, {Rgb(0.7f), {0.49f, 0.5f}});
+        add_tube(a[f.leaf], {rib(0), rib(0.15f), rib(0.31f)}, 0.007f, 4, {Rgb(0.7f), {0.49f, 0.5f}});
     }
     return a;
 }
@@ -86,7 +86,7 @@ Assembly tree(const Finishes& f, uint64_t seed, float height) {
     for (int i = 0; i < 7; ++i) {
         const Vec3 tip = fork + random_direction(chance, 0.15f) * (height * chance(0.3f, 0.5f));
         add_tube(a[f.brown_wood], {fork, fork + (tip - fork) * 0.5f + Vec3(0, 0.06f, 0), tip}, 0.022f, 6);
-        add_stems(a, f, chance, fork + (tip - fork) * 0.75f, 0.2f * height, 3, 130, f.leaf, 0.11f);
+        add_stems(a, f, chance, fork + (tip - fork) * 0.75f, 0.2f * height, 3, 100, f.leaf, 0.115f);
     }
     return a;
 }

@@ -14,14 +14,14 @@ Assembly air_conditioner(const Finishes& f) {
     add_box(a[f.painted_metal], {0, 0, gap}, {w, h, gap + d}, {}, 0.015f);
     const Vec3 fan = {0.3f, 0.28f, gap + d};
     add_tube(a[f.rubber], {fan + Vec3(0, 0, -0.02f), fan + Vec3(0, 0, 0.003f)}, 0.225f, 28);
-    for (int ring = 1; ring <= 7; ++ring) {  // wire guard
+    for (int ring = 1; ring <= 6; ++ring) {  // wire guard
         std::vector<Vec3> circle;
-        const float r = 0.033f * float(ring);
-        for (int i = 0; i <= 24; ++i) {
-            const float phi = 2 * pi * float(i) / 24;
+        const float r = 0.038f * float(ring);
+        for (int i = 0; i <= 18; ++i) {
+            const float phi = 2 * pi * float(i) / 18;
             circle.push_back(fan + Vec3(r * std::cos(phi), r * std::sin(phi), 0.016f));
         }
-        add_tube(a[f.painted_metal], circle, 0.003f, 4);
+        add_tube(a[f.painted_metal], circle, 0.0035f, 3);
     }
     for (int i = 0; i < 4; ++i) {
         const float phi = pi * float(i) / 4;
@@ -112,8 +112,9 @@ Assembly umbrella_stand(const Finishes& f) {
         add_lathe(folded, {{0.01f, 0}, {0.03f, 0.15f}, {0.045f, 0.5f}, {0.04f, 0.62f}, {0.02f, 0.68f}, {0, 0.69f}}, 9, {0.3f, 0.7f});
         const ShadingBasis basis(lean);
         append(a[colors[i]], folded, {Vec3d(basis.bitangent), Vec3d(lean), Vec3d(basis.tangent), Vec3d(0, 0.04, 0)});
-        add_tube(a[f.bamboo], rounded({lean * 0.66f + Vec3(0, 0.04f, 0), lean * 0.84f + Vec3(0, 0.04f, 0), lean * 0.9f + Vec3(0.06f, 0.04f, 0),
-                 lean * 0.84f + Vec3(0.1f, 0.04f, 0)}, 0.04f), 0.009f, 6);
+        const Vec3 foot = {0, 0.04f, 0}, hook = {0.1f, 0, 0};
+        const std::vector<Vec3> handle = {foot + lean * 0.66f, foot + lean * 0.93f, foot + lean * 0.93f + hook, foot + lean * 0.84f + hook};
+        add_tube(a[f.bamboo], rounded(handle, 0.05f), 0.009f, 6);
     }
     return a;
 }

@@ -61,12 +61,10 @@ void add_eave(Assembly& assembly, const Finishes& f, const Eave& eave, Chance& c
     Shape boards, rafters;
     add_box(boards, {0, 0, -0.04f}, {eave.width, slope_length, -0.012f}, chance.tint(0.2f));
     append(assembly[f.brown_wood], boards, facade_from_roof);
-    if (eave.rafters) {
-        const int count = std::max(2, int(eave.width / 0.3f));
-        for (int i = 0; i <= count; ++i) {
-            const float x = 0.03f + (eave.width - 0.06f) * float(i) / float(count);
-            add_box(rafters, {x - 0.022f, 0.02f, -0.1f}, {x + 0.022f, slope_length, -0.04f}, chance.tint(0.3f));
-        }
+    const int count = std::max(2, int(eave.width / 0.3f));
+    for (int i = 0; i <= count; ++i) {
+        const float x = 0.03f + (eave.width - 0.06f) * float(i) / float(count);
+        add_box(rafters, {x - 0.022f, 0.02f, -0.1f}, {x + 0.022f, slope_length, -0.04f}, chance.tint(0.3f));
     }
     add_box(rafters, {0, -0.012f, -0.085f}, {eave.width, 0.012f, -0.005f}, chance.tint(0.2f));
     append(assembly[f.dark_wood], rafters, facade_from_roof);

@@ -160,7 +160,10 @@ void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sid
         const size_t ring = first + (at_end ? (path.size() - 1) * size_t(sides + 1) : 0);
         const Vec3 d = at_end ? direction(path.size() - 1) : -direction(0);
         const uint32_t base = uint32_t(shape.positions.size());
-        for (int k = 0; k < sides; ++k) add_vertex(shape, shape.positions[ring + k], d, shape.uvs[ring + k], tint);
+        for (int k = 0; k < sides; ++k) {
+            const float phi = 2 * pi * float(k) / float(sides);
+            add_vertex(shape, shape.positions[ring + k], d, Vec2{std::cos(phi), std::sin(phi)} * radius, tint);
+        }
         for (int k = 1; k + 1 < sides; ++k) {
             if (at_end) shape.triangles.push_back({base, base + k, base + k + 1});
             else shape.triangles.push_back({base, base + k + 1, base + k});
@@ -170,16 +173,19 @@ void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sid
 
 std::vector<Vec3> rounded(const std::vector<Vec3>& path, float radius, int steps) {
     std::vector<Vec3> result = {path.front()};
+    const auto add = [&](Vec3 p) {  // arcs that meet half way share a point, which a tube must not get twice
+        if (length(p - result.back()) > 1e-4f) result.push_back(p);
+    };
     for (size_t i = 1; i + 1 < path.size(); ++i) {
         const Vec3 before = path[i - 1] - path[i], after = path[i + 1] - path[i];
         const float r = std::min({radius, 0.5f * length(before), 0.5f * length(after)});
         const Vec3 from = path[i] + normalize(before) * r, to = path[i] + normalize(after) * r;
         for (int k = 0; k <= steps; ++k) {  // quadratic Bezier curve with the corner as its middle point
             const float t = float(k) / float(steps);
-            result.push_back(from * ((1 - t) * (1 - t)) + path[i] * (2 * t * (1 - t)) + to * (t * t));
+            add(from * ((1 - t) * (1 - t)) + path[i] * (2 * t * (1 - t)) + to * (t * t));
         }
     }
-    result.push_back(path.back());
+    add(path.back());
     return result;
 }
 

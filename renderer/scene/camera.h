@@ -18,7 +18,7 @@ struct CameraSettings {
     double focus_distance = 10;      // metres of view depth
     double exposure_time = 1.0 / 60; // seconds
     double mid_exposure = 0;         // seconds of the sequence
-    Vec3d velocity;                  // of the camera, m/s
+    Vec3d velocity = {};             // of the camera, m/s
 };
 
 View make_view(const Camera& camera, const CameraSettings& settings);

@@ -76,10 +76,10 @@ struct Instance {
 
 struct PunctualLight {
     enum class Kind { point, spot, directional };
-    std::string name;
+    std::string name = {};
     Kind kind = Kind::point;
     Rgb intensity = Rgb(1);  // candela for point and spot, lux for directional
-    Vec3d position;
+    Vec3d position = {};
     Vec3 direction = {0, 0, -1};  // in which the light shines; spot and directional
     float inner_cone_angle = 0, outer_cone_angle = pi / 4;  // radians from the axis
 };

@@ -67,7 +67,7 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, 
 
     // What the drop could bring beside what it hides. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; a drop beside a lamp has q = 1 and is no firefly.
-    const float expected = hit.covered.fraction() * (segment.background_luminance + unshadowed);
+    const float expected = hit.covered.fraction() * std::max(segment.background_luminance, unshadowed);
     const float q = std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
 

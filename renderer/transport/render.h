@@ -13,9 +13,9 @@ namespace pluvia {
 struct RenderSettings {
     int samples = 64;  // camera samples per pixel
     uint64_t seed = 0;
-    PathSettings path;
-    RainSettings rain;  // no intensities: no rain stage at all; lowest_ground is taken from the scene
-    StreakSettings streaks;
+    PathSettings path = {};
+    RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
+    StreakSettings streaks = {};
     int tile_size = 32;  // pixels; changes no byte of the picture
 };
 

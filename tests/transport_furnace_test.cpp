@@ -1,0 +1,83 @@
+// The furnace: where light of radiance 1 comes from everywhere and nothing absorbs, everything has radiance 1, and rain
+// is invisible.
+#include "tests/statistics.h"
+#include "tests/test_scenes.h"
+
+#include <doctest/doctest.h>
+
+namespace pluvia {
+namespace {
+
+/// Per pixel the means of independent renders. Their standard errors come from the renders themselves.
+struct FurnaceResult {
+    double mean_error;
+    int outliers;  // pixels beyond five sigma
+};
+
+FurnaceResult furnace(const Scene& scene, const View& view, RenderSettings settings, const std::string& channel, int seeds) {
+    const Environment world = Environment::uniform(Rgb(1));
+    std::vector<RunningMean> pixels(size_t(view.width) * view.height);
+    for (int k = 0; k < seeds; ++k) {
+        settings.seed = settings.rain.seed = 77 + uint64_t(k);
+        const Picture picture = render_picture(scene, world, view, settings);
+        REQUIRE(picture.report.counters.invalid_samples == 0);
+        const auto& plane = picture.plane(channel);
+        for (size_t i = 0; i < plane.size(); ++i) pixels[i].add(plane[i]);
+    }
+    RunningMean all;
+    FurnaceResult result{0, 0};
+    for (const RunningMean& pixel : pixels) {
+        all.add(pixel.mean());
+        // 1e-6: float rounding, all that is left where no sample deviates.
+        if (!pixel.agrees_with(1, 1e-6)) ++result.outliers;
+    }
+    result.mean_error = all.mean() - 1;
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("in a uniform world white walls have the world's radiance and rain of 100 mm/h is invisible") {
+    const Scene scene = make_court(lambert(Rgb(1)));
+    const View view = court_view(48, 24);
+    RenderSettings settings;
+    settings.samples = 32;
+    settings.rain.intensities_mm_per_h = {10, 100};
+    settings.rain.min_width_pixels = 0.25;  // a small picture has few drops a pixel wide
+    const int seeds = 64;
+    for (const char* channel : {"background.G", "rainy_010.G", "rainy_100.G"}) {
+        const FurnaceResult result = furnace(scene, view, settings, channel, seeds);
+        CAPTURE(channel);
+        CHECK(std::abs(result.mean_error) < 1e-3);
+        CHECK(result.outliers == 0);
+    }
+    // The test sees the rain: there is some in front of most pixels.
+    settings.samples = 4;
+    const Picture picture = render_picture(scene, Environment::uniform(Rgb(1)), view, settings);
+    CHECK(picture.mean("rain_100.A") > 1e-3);
+}
+
+TEST_CASE("in a uniform world surfaces that absorb nothing are invisible") {
+    Material metal = lambert(Rgb(1));
+    metal.metallic = 1, metal.roughness = 0.5f;
+    Material plastic = lambert(Rgb(1));
+    plastic.specular = 1, plastic.roughness = 0.4f;
+    Material pane = lambert(Rgb(1));
+    pane.transmission = 1;
+    Material veil = lambert(Rgb(1));
+    veil.alpha_mode = AlphaMode::blend, veil.alpha = 0.5f;
+    Material half_pane = pane;
+    half_pane.transmission = 0.5f;
+    RenderSettings settings;
+    settings.samples = 64;
+    for (const Material& material : {metal, plastic, pane, veil, half_pane}) {
+        const FurnaceResult result = furnace(make_court(material), court_view(24, 12), settings, "background.G", 48);
+        CAPTURE(material.metallic);
+        CAPTURE(material.transmission);
+        CAPTURE(material.alpha);
+        // 1e-3 is the accuracy of the tables of multiple scattering.
+        CHECK(std::abs(result.mean_error) < 1e-3);
+    }
+}
+
+}  // namespace pluvia
