@@ -47,7 +47,8 @@ bool Progress::update(double done) {
     const auto now = Clock::now();
     const double since_last = std::chrono::duration<double>(now - last_).count();
     const bool due = style_ == Style::bar && !terminal_ ? since_last >= 10 : since_last >= 0.2;
-    if (style_ == Style::none || (!due && done < 1)) return true;
+    if (style_ == Style::none || complete_ || (!due && done < 1)) return true;
+    complete_ = done >= 1;
     last_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = done > 0 ? elapsed / done * (1 - done) : 0;

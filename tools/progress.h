@@ -24,7 +24,7 @@ private:
     using Clock = std::chrono::steady_clock;
     Style style_;
     std::string title_;
-    bool terminal_, drawn_ = false;
+    bool terminal_, drawn_ = false, complete_ = false;
     Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 

@@ -13,6 +13,8 @@
 namespace pluvia {
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
+    // Of scalar options given twice the last counts, so that scripts can append to a command.
+    command.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     command.add_option("scene", o.scene, "glTF file, .glb or .gltf")->required();
     command.add_option("-o,--output", o.output, "folder for frame.exr, pictures and frame.json")->required();
 
@@ -25,7 +27,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--f-number", o.f_number, "lens opening; default: pinhole")->group(camera);
     command.add_option("--focus", o.focus, "metres in focus [10]; needs --f-number")->group(camera);
     command.add_option("--shutter", o.shutter, "exposure time in seconds, which makes the streaks")->capture_default_str()->group(camera);
-    command.add_option("--camera-velocity", o.camera_velocity, "X,Y,Z in m/s; slants the streaks")->delimiter(',')->expected(3)->group(camera);
+    command.add_option("--camera-velocity", o.camera_velocity, "X,Y,Z in m/s; slants the streaks")->delimiter(',')->expected(3)->multi_option_policy(CLI::MultiOptionPolicy::Throw)->group(camera);
 
     const auto* quality = "Accuracy";
     command.add_option("--spp", o.spp, "samples per pixel")->capture_default_str()->group(quality);
@@ -33,8 +35,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--seed", o.seed, "of all random numbers")->capture_default_str()->group(quality);
 
     const auto* rain = "Rain (seen directly; what mirrors and glass show is dry)";
-    command.add_option("--rain", o.rain, "intensities in mm/h, e.g. 10,25,50,100; 0 to 1000 (drop sizes are a fit up to about 500)")->delimiter(',')->group(rain);
-    command.add_option("--wind", o.wind, "X,Y,Z in m/s")->delimiter(',')->expected(3)->group(rain);
+    command.add_option("--rain", o.rain, "intensities in mm/h, e.g. 10,25,50,100; 0 to 1000 (drop sizes are a fit up to about 500)")->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Throw)->group(rain);
+    command.add_option("--wind", o.wind, "X,Y,Z in m/s")->delimiter(',')->expected(3)->multi_option_policy(CLI::MultiOptionPolicy::Throw)->group(rain);
     command.add_option("--composition", o.composition, "physical, or paper: the formula of 'Learning from Rendering'")->capture_default_str()->group(rain);
     command.add_option("--streak-gain", o.streak_gain, "paper: factor on the light of streaks; 1 = exact, 24.5 = the published code")->capture_default_str()->group(rain);
     command.add_option("--streak-width", o.streak_width, "pixels; drops narrower than this are left out; BIASED: less water is seen")->capture_default_str()->group(rain);

@@ -5,6 +5,7 @@
 #include "renderer/core/sampling.h"
 #include "renderer/transport/shelter.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <map>
@@ -109,7 +110,27 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     }
 }
 
-void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, Counters& counters) {
+/// Counts finished pixels and passes the news on. Whoever comes while another thread tells it goes on.
+class PixelProgress {
+public:
+    PixelProgress(const View& view, const ProgressCallback& callback)
+        : pixels_(double(view.width) * view.height), callback_(callback) {}
+
+    void add_pixel() {
+        const double done = double(++done_) / pixels_;
+        const std::unique_lock lock(mutex_, std::try_to_lock);
+        if (lock && !callback_(done))
+            throw Error(ExitCode::stopped_early, "render", "stopped before the end, nothing was written");
+    }
+
+private:
+    double pixels_;
+    const ProgressCallback& callback_;
+    std::atomic<int64_t> done_ = 0;
+    std::mutex mutex_;
+};
+
+void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelProgress& progress, Counters& counters) {
     Scratch scratch;
     scratch.rain.resize(frame.intensity_count());
     scratch.values.resize(band.planes.size());
@@ -122,6 +143,7 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, Counter
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
             for (size_t c = 0; c < band.planes.size(); ++c) band.planes[c][pixel] = scratch.values[c];
+            progress.add_pixel();
         }
 }
 
@@ -221,23 +243,23 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     BandQueue queue(view, settings.tile_size, layer_channels(settings.rain.intensities_mm_per_h).size(), sink);
     const int rows = (view.height + settings.tile_size - 1) / settings.tile_size;
     const int tiles = rows * queue.columns();
+    PixelProgress pixel_progress(view, progress);
     std::mutex report_mutex;
-    int done = 0;
     parallel_in_order(tiles, [&](int tile) {
         try {
             const int row = tile / queue.columns(), x = tile % queue.columns() * settings.tile_size;
             Counters counters;
-            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row), counters);
+            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row),
+                        pixel_progress, counters);
             queue.complete_tile(row);
             const std::lock_guard lock(report_mutex);
             report.counters += counters;
-            if (!progress(double(++done) / tiles))
-                throw Error(ExitCode::stopped_early, "render", "stopped before the end, nothing was written");
         } catch (...) {
             queue.stop();
             throw;
         }
     });
+    progress(1);
     report.render_seconds = seconds_since(start) - report.build_seconds;
     return report;
 }

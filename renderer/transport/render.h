@@ -28,7 +28,7 @@ struct RenderReport {
 
 /// Takes finished rows, in rising order.
 using BandSink = std::function<void(const Band&)>;
-/// Told now and then how much is done, 0 to 1; false asks to stop.
+/// Told after most pixels how much is done, 0 to 1, by one thread at a time; false asks to stop.
 using ProgressCallback = std::function<bool(double)>;
 
 /// Renders all layers of layer_channels(settings.rain.intensities_mm_per_h). The bands are the same for any number of

@@ -1,0 +1,217 @@
+// The program as users meet it: exit codes, messages, files, and the same bytes twice.
+#include "renderer/core/error.h"
+#include "renderer/image/exr.h"
+#include "renderer/image/image_io.h"
+#include "renderer/scene/gltf.h"
+#include "tests/temporary_folder.h"
+#include "tests/test_scenes.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <set>
+#include <sys/wait.h>
+#include <thread>
+
+namespace pluvia {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int exit_code;
+    std::string out, err;
+};
+
+Outcome run_program(const std::string& arguments) {
+    const TemporaryFolder logs;
+    const std::string command =
+        std::string(PLUVIA_PROGRAM) + " " + arguments + " >" + (logs / "out") + " 2>" + (logs / "err") + " </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(logs / "out"), read_file(logs / "err")};
+}
+
+/// A court with a lamp, as a user's file.
+std::string write_scene(const TemporaryFolder& folder) {
+    Scene scene = make_court(lambert(Rgb(0.5f)));
+    add_sphere(scene, {1, 3, -2}, 0.2f, 16, emitter(Rgb(500)));
+    scene.cameras.push_back({"eye", translate({1, 1.6, 3.5}), 0.6});
+    save_glb(scene, folder / "court.glb");
+    return folder / "court.glb";
+}
+
+const std::string small = " --size 64x32 --spp 2 --progress none ";
+
+std::set<std::string> names_in(const std::string& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("every command explains itself with an example") {
+    for (const char* command : {"render", "scenes", "inspect"}) {
+        const Outcome help = run_program(std::string(command) + " --help");
+        CAPTURE(command);
+        CHECK(help.exit_code == 0);
+        CHECK(help.out.find("Example:") != std::string::npos);
+        CHECK(help.out.find(std::string("pluvia ") + command) != std::string::npos);
+    }
+    CHECK(run_program("--help").exit_code == 0);
+    CHECK(run_program("--version").out.find("0.") != std::string::npos);
+}
+
+TEST_CASE("a frame has all its files, layers and records") {
+    const TemporaryFolder folder;
+    const std::string scene = write_scene(folder), out = folder / "frame";
+    const Outcome done = run_program("render " + scene + small + "--rain 12.5,100 --streak-width 0.25 --json -o " + out);
+    CAPTURE(done.err);
+    REQUIRE(done.exit_code == 0);
+    CHECK(names_in(out) == std::set<std::string>{"background.png", "depth.png", "frame.exr", "frame.json",
+                                                 "rain_layer_012p5.png", "rain_layer_100.png", "rain_mask_012p5.png",
+                                                 "rain_mask_100.png", "rainy_012p5.png", "rainy_100.png"});
+    ExrReader exr(out + "/frame.exr");
+    for (const char* channel : {"background.R", "Z", "distance.Y", "transmittance_012p5.G", "rain_100.B", "rain_100.A",
+                                "inscatter_100.R", "rainy_100.R", "rainy_Z_012p5"}) {
+        CAPTURE(channel);
+        CHECK(exr.has_channel(channel));
+    }
+    const Json record = Json::parse(read_file(out + "/frame.json"));
+    CHECK(record["settings"]["rain"] == Json::array({12.5, 100.0}));
+    CHECK(record["settings"]["weather"] == "rain");
+    CHECK(record["invalid_samples"] == 0);
+    CHECK(Json::parse(done.out)["camera_paths"] == 64 * 32 * 2);
+    CHECK(done.err.find("--weather") != std::string::npos);  // it says which sky was taken
+
+    // Depth in the PNG is depth in the EXR; masks are black and white.
+    std::vector<float> z(64 * 32);
+    const ExrRequest request{"Z", z.data()};
+    exr.read_rows(0, 32, std::span(&request, 1));
+    const auto depth = read_grey16(out + "/depth.png");
+    for (size_t i = 0; i < z.size(); ++i)
+        CHECK(std::abs(depth.pixels[i] - (std::isfinite(z[i]) ? z[i] * 256 : 0)) <= 0.5);
+    for (const Rgba8 p : read_rgba8(out + "/rain_mask_100.png").pixels) CHECK((p.r == 0 || p.r == 255));
+}
+
+TEST_CASE("the same command gives the same bytes, with one thread or two, anywhere") {
+    const TemporaryFolder here, there;
+    const std::string scene = write_scene(here);
+    fs::copy_file(scene, there / "court.glb");
+    const std::string options = small + "--rain 10,50 --streak-width 0.5 --hour 21 -o ";
+    REQUIRE(run_program("render " + scene + options + (here / "a") + " --threads 1").exit_code == 0);
+    REQUIRE(run_program("render " + (there / "court.glb") + options + (there / "b") + " --threads 2").exit_code == 0);
+    for (const std::string& name : names_in(here / "a")) {
+        CAPTURE(name);
+        const std::string bytes = read_file((here / "a") + "/" + name);
+        CHECK(bytes == read_file((there / "b") + "/" + name));
+        CHECK(bytes.find(here.path()) == std::string::npos);  // no product knows where it was made
+    }
+}
+
+TEST_CASE("mistakes get one line that says where, what, got and expected, and their exit code") {
+    const TemporaryFolder folder;
+    const std::string scene = write_scene(folder), to = " -o " + (folder / "out");
+    struct Mistake {
+        std::string arguments;
+        int exit_code;
+        std::string word;
+    };
+    write_file(folder / "letter.glb", "no scene");
+    for (const Mistake& m : std::vector<Mistake>{
+             {"render " + scene + to + " --spp 0", 2, "--spp"},
+             {"render " + scene + to + " --size 10", 2, "--size"},
+             {"render " + scene + to + " --rain 9000", 2, "--rain"},
+             {"render " + scene + to + " --rain nan", 2, "--rain"},
+             {"render " + scene + to + " --rain 10,10", 2, "--rain"},
+             {"render " + scene + to + " --hour 25", 2, "--hour"},
+             {"render " + scene + to + " --date 2024-13-40", 2, ""},
+             {"render " + scene + to + " --weather snow", 2, "--weather"},
+             {"render " + scene + to + " --view nice", 2, "nice"},
+             {"render " + scene + to + " --camera nobody", 2, "eye"},
+             {"render " + scene + to + " --exposure bright", 2, "--exposure"},
+             {"render " + scene + to + " --depth-encoding foo", 2, "--depth-encoding"},
+             {"render " + scene + to + " --focus 3", 2, "--focus"},
+             {"render " + scene + to + " --bounces -2", 2, "--bounces"},
+             {"render " + scene + to + " --composition art", 2, "--composition"},
+             {"render " + scene + to + " --no-such-option", 2, "--no-such-option"},
+             {"render " + scene + to + " --environment absent.hdr", 3, "absent.hdr"},
+             {"render " + (folder / "absent.glb") + to, 3, "absent.glb"},
+             {"render " + (folder / "letter.glb") + to, 3, "letter.glb"},
+             {"render " + scene + " -o /proc/nowhere", 4, "/proc/nowhere"},
+             {"scenes atlantis", 2, "atlantis"},
+             {"inspect", 2, "inspect"},
+             {"", 2, ""},
+         }) {
+        const Outcome o = run_program(m.arguments);
+        CAPTURE(m.arguments);
+        CAPTURE(o.err);
+        CHECK(o.exit_code == m.exit_code);
+        CHECK(o.err.starts_with("pluvia: error: "));
+        CHECK(o.err.find(m.word) != std::string::npos);
+        CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
+        CHECK_FALSE(fs::exists(folder / "out/frame.json"));
+    }
+}
+
+TEST_CASE("a finished frame is not replaced by accident") {
+    const TemporaryFolder folder;
+    const std::string command = "render " + write_scene(folder) + small + "-o " + (folder / "out");
+    REQUIRE(run_program(command).exit_code == 0);
+    const std::string before = read_file(folder / "out/frame.exr");
+    CHECK(run_program(command + " --seed 9").exit_code == 2);
+    CHECK(read_file(folder / "out/frame.exr") == before);
+    CHECK(run_program(command + " --seed 9 --overwrite").exit_code == 0);
+    CHECK(read_file(folder / "out/frame.exr") != before);
+}
+
+TEST_CASE("an interrupted render stops with 75 and leaves no file that looks finished") {
+    const TemporaryFolder folder;
+    const std::string scene = write_scene(folder), out = folder / "out";
+    const pid_t child = fork();
+    if (child == 0) {
+        const int null = open("/dev/null", O_WRONLY);
+        dup2(null, 1), dup2(null, 2);
+        execl(PLUVIA_PROGRAM, "pluvia", "render", scene.c_str(), "-o", out.c_str(), "--spp", "100000", "--progress", "none",
+              static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    // Wait until it renders: then the picture is being written under its temporary name.
+    for (int i = 0; i < 400 && !fs::exists(out + "/frame.tmp.exr"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 75);
+    CHECK(names_in(out).empty());
+}
+
+TEST_CASE("progress as JSON lines can be parsed") {
+    const TemporaryFolder folder;
+    const Outcome o = run_program("render " + write_scene(folder) + " --size 64x32 --spp 2 --progress json -o " + (folder / "out"));
+    REQUIRE(o.exit_code == 0);
+    const std::string last = o.err.substr(o.err.rfind('\n', o.err.size() - 2) + 1);
+    CHECK(Json::parse(last)["progress"] == 1.0);
+}
+
+TEST_CASE("inspect tells what a scene requires, what a frame holds and what rain consists of") {
+    const TemporaryFolder folder;
+    const std::string scene = write_scene(folder);
+    const Json court = Json::parse(run_program("inspect " + scene + " --json").out);
+    CHECK(court["cameras"] == Json::array({"eye"}));
+    CHECK(court["requires"]["emissive_materials"] == 1);
+    CHECK(court["requires"]["textured_materials"] == 0);
+    REQUIRE(run_program("render " + scene + small + "-o " + (folder / "out")).exit_code == 0);
+    const Json frame = Json::parse(run_program("inspect " + (folder / "out/frame.exr") + " --json").out);
+    CHECK(frame["width"] == 64);
+    CHECK(frame["attributes"]["pluvia:settings"]["spp"] == 2);
+    const Json rain = Json::parse(run_program("inspect --rain 100 --json").out);
+    CHECK(rain["rain"]["100"]["drops_per_m3"].get<double>() == doctest::Approx(4391).epsilon(1e-3));  // Marshall and Palmer
+}
+
+}  // namespace pluvia
