@@ -70,9 +70,10 @@ void Lights::add_punctual(const PunctualLight& light, std::vector<LightBounds>& 
 void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
     first_light_of_instance_[instance] = int(triangles_.size());
     const Mesh& mesh = scene_->meshes[scene_->instances[instance].mesh];
+    const bool two_sided = scene_->materials[mesh.material].double_sided;
     for (int k = 0; k < int(mesh.triangles.size()); ++k) {
         const auto corner = corners(*scene_, instance, k);
-        const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+        const Vec3d normal = front_normal(*scene_, instance, k);
         const double area = 0.5 * length(normal);
         LightBounds b;
         b.lower = Vec3(min(corner[0], min(corner[1], corner[2])));
@@ -80,8 +81,8 @@ void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
         if (area > 0) {
             b.axis = Vec3(normalize(normal));
             b.cos_spread = 1;
-            b.two_sided = true;
-            b.power = 2 * pi * float(area) * mean_emission(*scene_, instance, k);
+            b.two_sided = two_sided;
+            b.power = (two_sided ? 2 : 1) * pi * float(area) * mean_emission(*scene_, instance, k);
         }
         triangles_.push_back({instance, k});
         all.push_back(b);
@@ -110,14 +111,16 @@ LightSample Lights::sample_triangle_light(const Receiver& receiver, int light, f
     const Vec2 b = sample_triangle(u);
     const auto corner = corners(*scene_, triangle.instance, triangle.triangle);
     const Vec3d p = corner[0] * (1.0 - b.x - b.y) + corner[1] * double(b.x) + corner[2] * double(b.y);
-    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    const Vec3d normal = front_normal(*scene_, triangle.instance, triangle.triangle);
     const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
     const float distance_squared = length_squared(to_light), distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
     // dA to solid angle; |normal| is twice the area, so the cosine and the area are both in this product.
     const float projected_area = 0.5f * std::abs(dot(Vec3(normal), wi));
     const SurfacePoint point{triangle.instance, triangle.triangle, b.x, b.y};
-    if (projected_area == 0 || distance_squared == 0) return {wi, distance, Rgb(0), 1, false};
+    const Material& material = scene_->materials[scene_->meshes[scene_->instances[triangle.instance].mesh].material];
+    const bool dark_side = dot(Vec3(normal), wi) > 0 && !material.double_sided;
+    if (dark_side || projected_area == 0 || distance_squared == 0) return {wi, distance, Rgb(0), 1, false};
     return {wi, distance, emission(*scene_, point) * opacity(*scene_, point),
             probability * distance_squared / projected_area, false};
 }

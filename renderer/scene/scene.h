@@ -35,7 +35,7 @@ struct Material {
     float specular = 1;                 // scales the reflectance of a dielectric at normal incidence
     float ior = 1.5f;
     float transmission = 0;             // share of light that passes a thin, smooth sheet instead of meeting the diffuse lobe
-    Rgb emission;                       // cd/m2: emissive factor times strength, both sides of the surface
+    Rgb emission;                       // cd/m2: emissive factor times strength
     int base_color_texture = -1;          // sRGB, alpha linear
     int metallic_roughness_texture = -1;  // linear: roughness in g, metallic in b
     int normal_texture = -1;              // linear, tangent space
@@ -43,7 +43,7 @@ struct Material {
     float normal_scale = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
-    bool double_sided = false;  // kept for files; every surface is seen from both sides, as light sees it
+    bool double_sided = false;  // decides whether the back emits; seen and lit are all surfaces from both sides
 
     bool emits() const { return !is_black(emission); }
 };

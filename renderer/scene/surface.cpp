@@ -109,14 +109,17 @@ Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 dir
     // In double: the transform may hold large translations that cancel.
     s.position = Vec3(scene_from_object.point(Vec3d(p0) * t.b0 + Vec3d(p1) * t.b1 + Vec3d(p2) * t.b2));
     s.geometric_normal = Vec3(normalize(scene_from_object.normal(cross(Vec3d(p1 - p0), Vec3d(p2 - p0)))));
+    const bool mirrored = scene_from_object.determinant() < 0;  // then the winding of the front is reversed
+    const bool from_front = (dot(s.geometric_normal, direction) < 0) != mirrored;
     if (dot(s.geometric_normal, direction) > 0) s.geometric_normal = -s.geometric_normal;
-    const bool mirrored = scene_from_object.determinant() < 0;
     s.shading_normal =
         face(shading_normal(scene, t, scene_from_object, s.geometric_normal, mirrored, counters), -direction);
 
     const Vec2 uv = t.uv();
-    s.emission = emission_at(scene, material, uv);
-    if (material.emits()) counters.count(Feature::emissive_surface);
+    if (material.emits() && (from_front || material.double_sided)) {
+        s.emission = emission_at(scene, material, uv);
+        counters.count(Feature::emissive_surface);
+    }
     const Rgb color = base_color(scene, material, t, uv, counters);
     if (material.transmission > 0 && u < material.transmission) {
         counters.count(Feature::pane);
@@ -160,6 +163,12 @@ std::array<Vec3d, 3> corners(const Scene& scene, int instance, int triangle) {
     for (int k = 0; k < 3; ++k)
         result[k] = i.scene_from_object.point(Vec3d(mesh.positions[mesh.triangles[triangle][k]]));
     return result;
+}
+
+Vec3d front_normal(const Scene& scene, int instance, int triangle) {
+    const auto corner = corners(scene, instance, triangle);
+    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    return scene.instances[instance].scene_from_object.determinant() < 0 ? -normal : normal;
 }
 
 Rgb emission(const Scene& scene, const SurfacePoint& point) {
