@@ -51,15 +51,17 @@ std::vector<int> add_meshes(Street& street, const std::string& name, const Assem
     return meshes;
 }
 
-void place(Street& street, const std::string& path, const std::vector<int>& meshes, const Transform& scene_from_object) {
-    for (const int mesh : meshes)
-        street.scene.instances.push_back({path, instance_id(path), mesh, scene_from_object});
+void place(Street& street, const std::string& path, const std::vector<int>& meshes,
+           const Transform& scene_from_object) {
+    for (const int mesh : meshes) street.scene.instances.push_back({path, instance_id(path), mesh, scene_from_object});
 }
 
 void place_once(Street& street, const std::string& path, const Assembly& assembly, const Transform& scene_from_object) {
     place(street, path, add_meshes(street, path.substr(path.rfind('/') + 1), assembly), scene_from_object);
 }
 
-Transform rotate_y(double radians) { return rotate(0, std::sin(radians / 2), 0, std::cos(radians / 2)); }
+Transform rotate_y(double radians) {
+    return rotate(0, std::sin(radians / 2), 0, std::cos(radians / 2));
+}
 
 }  // namespace pluvia

@@ -1,5 +1,6 @@
 // Assembly: how a builder turns shapes into the materials, meshes and instances of a Scene.
-// A street is built as assemblies (shapes sorted by finish), each becoming one object of the scene or a prop placed often.
+// A street is built as assemblies (shapes sorted by finish), each becoming one object of the scene or a prop placed
+// often.
 #pragma once
 
 #include "renderer/core/random.h"

@@ -21,27 +21,23 @@ const std::map<std::string, const char*>& characters() {
         {"ki", "10,36 90,36 | 50,8 50,94 | 48,38 32,62 10,80 | 52,38 68,62 92,80"},
         {"hon", "10,36 90,36 | 50,8 50,94 | 48,38 32,62 10,80 | 52,38 68,62 92,80 | 34,76 66,76"},
         {"ta", "18,18 18,88 | 18,18 82,18 82,88 | 50,18 50,86 | 18,52 82,52 | 18,86 82,86"},
-        {"naka", "18,28 18,64 | 18,28 82,28 82,64 | 18,62 82,62 | 50,6 50,96"},
         {"dai", "10,36 90,36 | 50,8 48,40 36,68 10,92 | 50,40 66,70 92,90"},
         {"i", "14,32 86,32 | 8,64 92,64 | 34,12 34,64 20,92 | 66,10 66,92"},
         {"san", "20,20 80,20 | 26,50 74,50 | 10,84 90,84"},
         {"ko", "50,8 50,86 38,78 | 28,36 12,68 | 70,34 90,64"},
         {"tsuki", "28,12 28,60 14,92 | 28,12 78,12 78,90 66,84 | 28,38 76,38 | 28,62 76,62"},
-        {"hi", "24,12 24,90 | 24,12 76,12 76,90 | 24,50 76,50 | 24,88 76,88"},
-        {"hana", "10,22 90,22 | 34,8 34,34 | 66,8 66,34 | 36,38 12,68 | 26,56 26,94 | 84,44 56,62 | "
-                 "56,38 56,84 66,90 90,88 90,74"},
-        {"cha", "8,20 92,20 | 34,8 34,32 | 66,8 66,32 | 50,30 32,46 8,58 | 50,30 68,46 92,58 | 24,64 76,64 | "
-                "50,50 50,94 40,88 | 38,72 22,88 | 62,72 78,88"},
-        {"sake", "12,14 22,24 | 8,38 18,48 | 22,62 8,90 | 32,16 94,16 | 38,34 38,92 | 38,34 90,34 90,92 | "
-                 "56,16 56,48 46,58 | 72,16 72,52 86,52 | 38,70 90,70 | 38,90 90,90"},
+        {"hana",
+         "10,22 90,22 | 34,8 34,34 | 66,8 66,34 | 36,38 12,68 | 26,56 26,94 | 84,44 56,62 | "
+         "56,38 56,84 66,90 90,88 90,74"},
+        {"cha",
+         "8,20 92,20 | 34,8 34,32 | 66,8 66,32 | 50,30 32,46 8,58 | 50,30 68,46 92,58 | 24,64 76,64 | "
+         "50,50 50,94 40,88 | 38,72 22,88 | 62,72 78,88"},
+        {"sake",
+         "12,14 22,24 | 8,38 18,48 | 22,62 8,90 | 32,16 94,16 | 38,34 38,92 | 38,34 90,34 90,92 | "
+         "56,16 56,48 46,58 | 72,16 72,52 86,52 | 38,70 90,70 | 38,90 90,90"},
         {"ishi", "12,18 88,18 | 46,18 32,50 10,74 | 34,50 34,90 | 34,50 82,50 82,90 | 34,88 82,88"},
         {"no", "54,20 46,56 30,78 16,70 14,46 30,24 56,18 80,32 86,56 74,80 58,88"},
         {"ya", "10,50 40,34 74,26 88,40 78,56 60,56 | 46,10 56,22 | 26,24 44,60 56,92"},
-        {"yu", "22,28 18,72 24,56 44,30 72,30 82,50 70,70 50,70 | 54,12 58,50 46,92"},
-        {"shi", "36,12 34,66 44,86 64,84 82,66"},
-        {"ku", "66,12 28,48 68,90"},
-        {"tsu", "10,36 44,24 78,30 88,52 72,76 42,84"},
-        {"ri", "30,16 28,50 36,44 | 70,14 74,50 62,76 44,92"},
     };
     return table;
 }
@@ -53,8 +49,10 @@ std::vector<std::vector<Vec2>> strokes_of(const std::string& name) {
     std::vector<std::vector<Vec2>> strokes(1);
     std::istringstream words(found->second);
     for (std::string word; words >> word;) {
-        if (word == "|") strokes.emplace_back();
-        else strokes.back().push_back({float(std::stoi(word)), float(std::stoi(word.substr(word.find(',') + 1)))});
+        if (word == "|")
+            strokes.emplace_back();
+        else
+            strokes.back().push_back({float(std::stoi(word)), float(std::stoi(word.substr(word.find(',') + 1)))});
     }
     return strokes;
 }
@@ -73,10 +71,13 @@ void stamp(Ink& ink, Vec2 centre, float radius) {
 /// Curve through four points, between b and c. Source: Catmull and Rom 1974, uniform, tension 1/2.
 Vec2 spline(Vec2 a, Vec2 b, Vec2 c, Vec2 d, float t) {
     return (b * 2.0f + (c - a) * t + (a * 2.0f - b * 5.0f + c * 4.0f - d) * (t * t) +
-            (b * 3.0f - a - c * 3.0f + d) * (t * t * t)) * 0.5f;
+            (b * 3.0f - a - c * 3.0f + d) * (t * t * t)) *
+           0.5f;
 }
 
-float distance(Vec2 a, Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+float distance(Vec2 a, Vec2 b) {
+    return std::hypot(a.x - b.x, a.y - b.y);
+}
 
 /// A brush presses where it sets down, thins out on its way and leaves in a point or a stop.
 void brush_stroke(Ink& ink, const std::vector<Vec2>& points, float width) {
@@ -94,8 +95,8 @@ void brush_stroke(Ink& ink, const std::vector<Vec2>& points, float width) {
             const float t = float(k) / float(steps);
             const Vec2 p = curved ? spline(a, b, c, d, t) : b + (c - b) * t;
             const float s = (walked + t * distance(b, c)) / total;
-            const float pressure = 0.72f + 0.28f * bump(s, 0.25f) + 0.2f * bump(s - 0.93f, 0.12f) -
-                                   0.35f * smooth_step(0.96f, 1, s);
+            const float pressure =
+                0.72f + 0.28f * bump(s, 0.25f) + 0.2f * bump(s - 0.93f, 0.12f) - 0.35f * smooth_step(0.96f, 1, s);
             stamp(ink, p, 0.5f * width * pressure);
         }
         walked += distance(b, c);

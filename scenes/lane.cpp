@@ -1,192 +1,163 @@
-// The plan of the lane: which houses stand where, what stands before them, and the cameras.
-// The lane runs from z = 6 to z = -21.3 and is 3 m wide (x from -1.5 to 1.5); the view ends at a house across it, where
-// the lane turns right. The houses' parts are in the lane_*.cpp files beside this one.
-#include "scenes/builders.h"
+// The plan of the lane: which houses stand where, the ground and the cameras. What stands before the houses is placed
+// in lane_furniture.cpp. The lane runs from z = 6 to z = -21.3 and is 3 m wide (x from -1.5 to 1.5); the view ends at a
+// house across it, where the lane turns right.
 #include "scenes/lane.h"
+#include "scenes/builders.h"
 
-#include "renderer/core/units.h"
-
-#include <cmath>
+#include <utility>
 
 namespace pluvia {
 namespace lane {
 namespace {
 
-/// Facade frames of the four directions; start: the end of the wall at the left of someone who faces it.
-Transform left_wall(double x, double z_start) { return {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {x, 0, z_start}}; }
-Transform right_wall(double x, double z_start) { return {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}, {x, 0, z_start}}; }
-Transform end_wall(double x_start, double z) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {x_start, 0, z}}; }
-Transform facing_away(double x_start, double z) { return {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {x_start, 0, z}}; }
-
-/// A thing on the left (right) wall, its front towards the lane.
-Transform on_left(double y, double z, double x = -1.48) { return translate({x, y, z}) * rotate_y(std::numbers::pi / 2); }
-Transform on_right(double y, double z, double x = 1.48) { return translate({x, y, z}) * rotate_y(-std::numbers::pi / 2); }
-/// A thing on the ground, turned by degrees.
-Transform standing(double x, double z, double degrees = 0) {
-    return translate({x, -0.03, z}) * rotate_y(radians_from_degrees(degrees));
-}
-
 void add_houses(Street& street, const Finishes& f) {
-    add_house(street, f, {.name = "house_left_1", .scene_from_facade = left_wall(-1.5, 5), .width = 6, .ground = "BBBBBB",
-                          .upper = "bbpbpb", .boards = f.red_wood, .posts = f.brown_wood, .walls = f.ochre_plaster,
-                          .eave_height = 5.4f, .lower_roof_depth = 0, .downpipes = {5.9f}});
+    add_house(street, f,
+              {.name = "house_left_1",
+               .scene_from_facade = left_wall(-1.5, 5),
+               .width = 6,
+               .ground = "BBBBBB",
+               .upper = "bbpbpb",
+               .boards = f.red_wood,
+               .posts = f.brown_wood,
+               .walls = f.ochre_plaster,
+               .eave_height = 5.4f,
+               .lower_roof_depth = 0,
+               .downpipes = {5.9f}});
     add_garden_wall(street, f, "garden_wall", 3.2f, 2.15f, left_wall(-1.48, -1));
-    add_house(street, f, {.name = "house_left_back", .scene_from_facade = left_wall(-4.6, 0.5), .width = 4.7f, .ground = "BBBB",
-                          .upper = "pvvp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
-                          .lower_roof_depth = 0});
-    add_house(street, f, {.name = "house_left_2", .scene_from_facade = left_wall(-1.5, -4.2), .width = 5.4f, .ground = "bklDlb",
-                          .upper = "pwwspp", .boards = f.dark_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
-                          .eave_height = 5.35f, .downpipes = {0.15f}});
-    add_house(street, f, {.name = "house_left_3", .scene_from_facade = left_wall(-1.56, -9.6), .width = 6.3f, .ground = "sslsgds",
-                          .upper = "pmmpmmp", .boards = f.grey_wood, .posts = f.brown_wood, .walls = f.white_plaster,
-                          .eave_height = 5.3f, .lower_roof_depth = 0.65f, .downpipes = {6.15f}});
-    add_house(street, f, {.name = "house_left_4", .scene_from_facade = left_wall(-1.44, -15.9), .width = 5.4f, .ground = "bldllb",
-                          .upper = "pspwwp", .boards = f.red_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
-                          .eave_height = 5.1f});
-    add_house(street, f, {.name = "house_right_1", .scene_from_facade = right_wall(1.5, -1), .width = 6.3f, .ground = "bbkbbBB",
-                          .upper = "pvpppvp", .boards = f.red_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
-                          .eave_height = 5.15f, .lower_roof_depth = 0.7f, .downpipes = {0.12f}});
-    add_house(street, f, {.name = "house_right_2", .scene_from_facade = right_wall(1.54, -7.3), .width = 6.3f, .ground = "bdlbggb",
-                          .upper = "pvpwpvp", .boards = f.brown_wood, .posts = f.dark_wood, .walls = f.ochre_plaster,
-                          .eave_height = 4.85f, .downpipes = {3.5f}});
-    add_house(street, f, {.name = "house_right_3", .scene_from_facade = right_wall(1.46, -12.7), .width = 5.4f, .ground = "blDlkb",
-                          .upper = "pwsswp", .boards = f.dark_wood, .posts = f.brown_wood, .walls = f.white_plaster,
-                          .eave_height = 5.2f, .lower_roof_depth = 0.7f, .downpipes = {5.25f}});
-    add_house(street, f, {.name = "house_right_4", .scene_from_facade = right_wall(1.52, -18.1), .width = 5.4f, .ground = "slsdsb",
-                          .upper = "pmmpmm", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.white_plaster,
-                          .eave_height = 4.9f, .downpipes = {0.15f}});
-    add_house(street, f, {.name = "house_end", .scene_from_facade = end_wall(-1.9, -21.4), .width = 8.8f, .ground = "slsdlbklbb",
-                          .upper = "pmmpwwpmmp", .boards = f.brown_wood, .posts = f.dark_wood, .walls = f.white_plaster,
-                          .eave_height = 4.7f, .lower_roof_depth = 0.6f, .downpipes = {1.5f}});
-    add_house(street, f, {.name = "house_corner", .scene_from_facade = right_wall(6.9, -21.6), .width = 3.7f, .ground = "sdls",
-                          .upper = "pwwp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.ochre_plaster});
-    add_house(street, f, {.name = "house_behind", .scene_from_facade = facing_away(4, 10), .width = 8, .ground = "ssgdss",
-                          .upper = "pwppwp", .boards = f.grey_wood, .posts = f.dark_wood, .walls = f.white_plaster,
-                          .lower_roof_depth = 0});
+    add_house(street, f,
+              {.name = "house_left_back",
+               .scene_from_facade = left_wall(-4.6, 0.5),
+               .width = 4.7f,
+               .ground = "BBBB",
+               .upper = "pvvp",
+               .boards = f.grey_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster,
+               .lower_roof_depth = 0});
+    add_house(street, f,
+              {.name = "house_left_2",
+               .scene_from_facade = left_wall(-1.5, -4.2),
+               .width = 5.4f,
+               .ground = "bklDlb",
+               .upper = "pwwspp",
+               .boards = f.dark_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster,
+               .eave_height = 5.35f,
+               .downpipes = {0.15f}});
+    add_house(street, f,
+              {.name = "house_left_3",
+               .scene_from_facade = left_wall(-1.56, -9.6),
+               .width = 6.3f,
+               .ground = "sslsgds",
+               .upper = "pmmpmmp",
+               .boards = f.grey_wood,
+               .posts = f.brown_wood,
+               .walls = f.white_plaster,
+               .eave_height = 5.3f,
+               .lower_roof_depth = 0.65f,
+               .downpipes = {6.15f}});
+    add_house(street, f,
+              {.name = "house_left_4",
+               .scene_from_facade = left_wall(-1.44, -15.9),
+               .width = 5.4f,
+               .ground = "bldllb",
+               .upper = "pspwwp",
+               .boards = f.red_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster,
+               .eave_height = 5.1f});
+    add_house(street, f,
+              {.name = "house_right_1",
+               .scene_from_facade = right_wall(1.5, -1),
+               .width = 6.3f,
+               .ground = "bbkbbBB",
+               .upper = "pvpppvp",
+               .boards = f.red_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster,
+               .eave_height = 5.15f,
+               .lower_roof_depth = 0.7f,
+               .downpipes = {0.12f}});
+    add_house(street, f,
+              {.name = "house_right_2",
+               .scene_from_facade = right_wall(1.54, -7.3),
+               .width = 6.3f,
+               .ground = "bdlbggb",
+               .upper = "pvpwpvp",
+               .boards = f.brown_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster,
+               .eave_height = 4.85f,
+               .downpipes = {3.5f}});
+    add_house(street, f,
+              {.name = "house_right_3",
+               .scene_from_facade = right_wall(1.46, -12.7),
+               .width = 5.4f,
+               .ground = "blDlkb",
+               .upper = "pwsswp",
+               .boards = f.dark_wood,
+               .posts = f.brown_wood,
+               .walls = f.white_plaster,
+               .eave_height = 5.2f,
+               .lower_roof_depth = 0.7f,
+               .downpipes = {5.25f}});
+    add_house(street, f,
+              {.name = "house_right_4",
+               .scene_from_facade = right_wall(1.52, -18.1),
+               .width = 5.4f,
+               .ground = "slsdsb",
+               .upper = "pmmpmm",
+               .boards = f.grey_wood,
+               .posts = f.dark_wood,
+               .walls = f.white_plaster,
+               .eave_height = 4.9f,
+               .downpipes = {0.15f}});
+    add_house(street, f,
+              {.name = "house_end",
+               .scene_from_facade = end_wall(-1.9, -21.4),
+               .width = 8.8f,
+               .ground = "slsdlbklbb",
+               .upper = "pmmpwwpmmp",
+               .boards = f.brown_wood,
+               .posts = f.dark_wood,
+               .walls = f.white_plaster,
+               .eave_height = 4.7f,
+               .lower_roof_depth = 0.6f,
+               .downpipes = {1.5f}});
+    add_house(street, f,
+              {.name = "house_corner",
+               .scene_from_facade = right_wall(6.9, -21.6),
+               .width = 3.7f,
+               .ground = "sdls",
+               .upper = "pwwp",
+               .boards = f.grey_wood,
+               .posts = f.dark_wood,
+               .walls = f.ochre_plaster});
+    add_house(street, f,
+              {.name = "house_behind",
+               .scene_from_facade = facing_away(4, 10),
+               .width = 8,
+               .ground = "ssgdss",
+               .upper = "pwppwp",
+               .boards = f.grey_wood,
+               .posts = f.dark_wood,
+               .walls = f.white_plaster,
+               .lower_roof_depth = 0});
 }
 
 void add_ground(Street& street, const Finishes& f) {
     add_paving(street, f, {.name = "paving", .half_width = 1.5f, .near = 9, .far = -21.35f, .scene_from_paving = {}});
-    add_paving(street, f, {.name = "side_paving", .half_width = 1.55f, .near = 0, .far = -5.3f,
-                           .scene_from_paving = translate({1.5, 0.001, -19.75}) * rotate_y(-std::numbers::pi / 2)});
+    add_paving(street, f,
+               {.name = "side_paving",
+                .half_width = 1.55f,
+                .near = 0,
+                .far = -5.3f,
+                .scene_from_paving = translate({1.5, 0.001, -19.75}) * rotate_y(-std::numbers::pi / 2)});
     Assembly block;  // bare ground under houses and gardens
     const Vec3 a = {-30, -0.13f, 40}, b = {30, -0.13f, 40}, c = {30, -0.13f, -50}, d = {-30, -0.13f, -50};
     add_quad(block[f.soil], {a, b, c, d}, {0, 0}, {60, -90});
     place_once(street, "lane/block", block);
-}
-
-void add_lamps(Street& street, const Finishes& f) {
-    const auto globe = add_meshes(street, "globe_lamp", globe_lamp(f));
-    place(street, "lane/globe_lamp_1", globe, on_right(2.35, -6.9));
-    place(street, "lane/globe_lamp_2", globe, on_right(2.3, -9.4));
-    place(street, "lane/globe_lamp_3", globe, on_left(2.3, -15.0, -1.53));
-    place(street, "lane/globe_lamp_4", globe, translate({4.4, 2.4, -21.35}));
-
-    place_once(street, "lane/wall_lantern", wall_lantern(f), on_left(3.95, -10.3, -1.54));
-
-    const auto white = add_meshes(street, "white_lantern", paper_lantern(f, false));
-    const auto red = add_meshes(street, "red_lantern", paper_lantern(f, true));
-    const double left_eave = -0.98, right_eave = 0.98, hook = 2.74;
-    place(street, "lane/white_lantern_1", white, translate({left_eave, hook, -6.75}) * rotate_y(0.5));
-    place(street, "lane/white_lantern_2", white, translate({left_eave, hook, -8.15}) * rotate_y(0.3));
-    place(street, "lane/red_lantern_1", red, translate({right_eave, hook, -14.4}) * rotate_y(-0.4));
-    place(street, "lane/red_lantern_2", red, translate({right_eave, hook, -15.3}) * rotate_y(0.1));
-    place(street, "lane/red_lantern_3", red, translate({right_eave, hook, -16.2}) * rotate_y(0.4));
-    place(street, "lane/white_lantern_3", white, translate({left_eave + 0.05, hook, -18.2}));
-
-    const auto andon = add_meshes(street, "floor_lantern", floor_lantern(f));
-    place(street, "lane/floor_lantern_1", andon, standing(-1.2, -16.6, 10));
-    place(street, "lane/floor_lantern_2", andon, standing(-1.05, -7.95, -12));
-}
-
-void add_signs(Street& street, const Finishes& f) {
-    place_once(street, "lane/signboard", hanging_board(f), on_left(4.87, -10.3, -1.54));
-    place_once(street, "lane/standing_sign", standing_sign(f, false), standing(-0.72, -7.6, 14));
-    place_once(street, "lane/standing_sign_tall_1", standing_sign(f, true), standing(0.98, -11.0, -16));
-    place_once(street, "lane/standing_sign_tall_2", standing_sign(f, true), standing(-0.95, -13.4, 20));
-    place_once(street, "lane/box_sign", box_sign(f), on_right(2.62, -13.4));
-
-    Assembly plates;
-    const auto hang = [&](int finish, const Transform& place_at, float half_width, float height) {
-        Shape sheet;
-        add_quad(sheet, {Vec3{-half_width, 0, 0.012f}, {half_width, 0, 0.012f}, {half_width, height, 0.012f}, {-half_width, height, 0.012f}},
-                 {0, 1}, {1, 0});
-        append(plates[finish], sheet, place_at);
-        Shape back;
-        add_box(back, {-half_width, 0, -0.03f}, {half_width, height, 0.011f});
-        append(plates[f.brown_wood], back, place_at);
-    };
-    hang(f.nameplate, on_right(1.45, -5.62), 0.055f, 0.17f);
-    hang(f.poster, translate({-0.62, 1.35, -21.38}), 0.19f, 0.28f);
-    hang(f.poster, on_left(1.25, -9.9, -1.53), 0.19f, 0.28f);
-    hang(f.signboard, on_left(1.05, -15.2, -1.53), 0.13f, 0.95f);
-    place_once(street, "lane/plates", plates);
-}
-
-/// A plant in a pot, as one thing.
-std::vector<int> potted(Street& street, const Finishes& f, const std::string& name, Assembly plant, int pot_finish, float radius,
-                        float height) {
-    Assembly a = pot(f, pot_finish, radius, height);
-    for (const auto& [finish, shape] : plant.shapes) append(a[finish], shape, translate({0, 0.9 * height, 0}));
-    return add_meshes(street, name, a);
-}
-
-void add_plants(Street& street, const Finishes& f) {
-    const auto leafy = potted(street, f, "potted_bush", bush(f, 1, 0.75f, 260, false), f.iron, 0.15f, 0.27f);
-    const auto round = potted(street, f, "white_pot_bush", bush(f, 2, 1.25f, 420, true), f.porcelain, 0.22f, 0.42f);
-    const auto small = potted(street, f, "small_pot", bush(f, 3, 0.34f, 130, false), f.terracotta, 0.1f, 0.17f);
-    const auto areca = potted(street, f, "potted_palm", palm(f, 4, 1.25f), f.terracotta, 0.17f, 0.3f);
-    const auto fern = potted(street, f, "potted_fern", palm(f, 5, 0.5f), f.porcelain, 0.12f, 0.2f);
-    place(street, "lane/plant_1", leafy, standing(-1.18, -4.75, 40));
-    place(street, "lane/plant_2", small, standing(-1.22, -5.3, 0));
-    place(street, "lane/plant_3", fern, standing(-1.15, -5.75, 70));
-    place(street, "lane/plant_4", areca, standing(-1.12, -9.2, 0));
-    place(street, "lane/plant_5", round, standing(1.1, -11.75, 0));
-    place(street, "lane/plant_6", small, standing(-0.3, -21.0, 120));
-    place(street, "lane/plant_7", leafy, standing(0.55, -20.95, 200));
-    place(street, "lane/plant_8", small, standing(1.24, -8.5, 60));
-    place(street, "lane/plant_9", fern, standing(1.2, -8.1, 10));
-    place(street, "lane/plant_10", small, standing(1.25, -2.6, 200));
-    place(street, "lane/plant_11", areca, standing(-1.1, -20.3, 130));
-    place(street, "lane/plant_12", fern, standing(-1.2, -16.05, 20));
-    place(street, "lane/plant_13", round, standing(-1.15, -12.2, 140));
-
-    const auto maple = add_meshes(street, "tree", tree(f, 6, 4.2f));
-    place(street, "lane/tree_1", maple, translate({-2.7, -0.1, -2.6}));
-    place(street, "lane/tree_2", maple, translate({2.2, -0.1, -18.5}) * rotate_y(2.2) * scale({0.9, 1.1, 0.9}));
-}
-
-void add_props(Street& street, const Finishes& f) {
-    place_once(street, "lane/bamboo_fence", bamboo_fence(f, 3.6f), left_wall(-1.45, 0.9));
-    place_once(street, "lane/bamboo_fence_far", bamboo_fence(f, 1.8f), left_wall(-1.42, -19.4));
-    const auto cooler = add_meshes(street, "air_conditioner", air_conditioner(f));
-    place(street, "lane/air_conditioner_1", cooler, left_wall(-1.53, -13.15) * translate({0, 3.5, 0}));
-    place(street, "lane/air_conditioner_2", cooler, right_wall(1.5, -5.3) * translate({0, 3.45, 0}));
-    const auto meter = add_meshes(street, "meter_box", meter_box(f));
-    place(street, "lane/meter_box_1", meter, on_left(1.95, -11.0, -1.54));
-    place(street, "lane/meter_box_2", meter, on_right(1.9, -3.3));
-    place_once(street, "lane/bench", bench(f), on_right(-0.03, -10.1, 1.46));
-    place_once(street, "lane/umbrella_stand", umbrella_stand(f), standing(-1.2, -8.75));
-    place_once(street, "lane/crates", crates(f), standing(1.18, -17.0, 96));
-    const auto pail = add_meshes(street, "bucket", bucket(f));
-    place(street, "lane/bucket_1", pail, standing(1.22, -7.55, 15));
-    place(street, "lane/bucket_2", pail, standing(-1.2, -11.35, 50));
-
-    place_once(street, "lane/utility_pole", utility_pole(f), translate({1.28, -0.05, -18.35}));
-    Assembly cables;
-    for (const float x : {-0.65f, -0.3f, 0.3f, 0.65f}) {
-        add_cable(cables, f, {1.28f + x, 7.52f, -18.21f}, {0.4f + x, 7.4f, 10}, 0.55f);
-        add_cable(cables, f, {1.28f + x, 6.82f, -18.21f}, {0.1f + 2 * x, 6.3f, -24}, 0.15f);
-    }
-    add_cable(cables, f, {1.2f, 6.2f, -18.2f}, {-1.3f, 4.6f, -9.8f}, 0.35f, 0.011f);
-    add_cable(cables, f, {1.2f, 6.1f, -18.2f}, {-1.3f, 4.9f, -16.4f}, 0.15f);
-    add_cable(cables, f, {1.2f, 6.2f, -18.2f}, {1.3f, 4.6f, -7.0f}, 0.3f, 0.011f);
-    add_cable(cables, f, {1.3f, 4.6f, -7.0f}, {-1.3f, 5.0f, -4.4f}, 0.25f);
-    add_cable(cables, f, {1.2f, 5.9f, -18.2f}, {-1.0f, 4.4f, -21.2f}, 0.12f);
-    // A water pipe along the near wall and up, white where the paint holds.
-    const std::vector<Vec3> pipe = {{-1.4f, 1.92f, -0.1f}, {-1.4f, 1.92f, -4.05f}, {-1.4f, 0.05f, -4.05f}};
-    add_tube(cables[f.painted_metal], rounded(pipe, 0.12f, 5), 0.026f, 10);
-    place_once(street, "lane/cables", cables);
 }
 
 Camera look_at(const std::string& name, Vec3d position, Vec3d target, double vertical_fov) {
@@ -211,10 +182,7 @@ Scene build_lane() {
     const lane::Finishes finishes = lane::add_finishes(street);
     lane::add_ground(street, finishes);
     lane::add_houses(street, finishes);
-    lane::add_lamps(street, finishes);
-    lane::add_signs(street, finishes);
-    lane::add_plants(street, finishes);
-    lane::add_props(street, finishes);
+    lane::add_furniture(street, finishes);
     lane::add_cameras(street.scene);
     check(street.scene, "lane");
     return std::move(street.scene);

@@ -15,13 +15,27 @@ struct Finishes {
     int red_wood, brown_wood, dark_wood, grey_wood, bamboo;
     int ochre_plaster, white_plaster;
     int granite, concrete, soil, clay, tiled_roof;
-    int copper, zinc, iron, painted_metal, rubber, glass, brass, terracotta, porcelain;
+    int copper, zinc, iron, painted_metal, rubber, glass, terracotta, porcelain;
     int indigo_cloth, red_cloth;
     int leaf, dark_leaf, frond;
     int lit_window, warm_window, lamp_glass, white_lantern, red_lantern, lit_sign, lit_sign_tall, lit_sign_box;
     int signboard, nameplate, poster, noren_print;
 };
 Finishes add_finishes(Street& street);
+
+/// Facade frames of the four directions; start: the end of the wall at the left of someone who faces it.
+inline Transform left_wall(double x, double z_start) {
+    return {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {x, 0, z_start}};
+}
+inline Transform right_wall(double x, double z_start) {
+    return {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}, {x, 0, z_start}};
+}
+inline Transform end_wall(double x_start, double z) {
+    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {x_start, 0, z}};
+}
+inline Transform facing_away(double x_start, double z) {
+    return {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {x_start, 0, z}};
+}
 
 /// A two-storey house of a row, seen by its front. One letter a bay, from left to right:
 /// ground: b boards with plaster above, B boards to the beam, l lattice with lit paper behind, k dark lattice,
@@ -32,12 +46,12 @@ struct House {
     Transform scene_from_facade;
     float width = 6;
     std::string ground, upper;
-    int boards, posts, walls;         // finishes
-    float ground_height = 2.75f;      // to the beam between the storeys
-    float eave_height = 4.9f;         // of the upper wall's top
-    float lower_roof_depth = 0.75f;   // 0 = none
-    float body_depth = 5;             // into the block
-    std::vector<float> downpipes = {};     // x of pipes from the lower gutter to the ground
+    int boards, posts, walls;           // finishes
+    float ground_height = 2.75f;        // to the beam between the storeys
+    float eave_height = 4.9f;           // of the upper wall's top
+    float lower_roof_depth = 0.75f;     // 0 = none
+    float body_depth = 5;               // into the block
+    std::vector<float> downpipes = {};  // x of pipes from the lower gutter to the ground
 };
 void add_house(Street& street, const Finishes& finishes, const House& house);
 
@@ -49,8 +63,8 @@ void add_garden_wall(Street& street, const Finishes& finishes, const std::string
 /// and gutter; in the facade frame.
 struct Eave {
     float width, wall_height, depth;
-    float pitch = 0.42f;       // fall per metre
-    float back = 0;            // metres that the roof continues behind the wall line, without real tiles
+    float pitch = 0.42f;  // fall per metre
+    float back = 0;       // metres that the roof continues behind the wall line, without real tiles
 };
 void add_eave(Assembly& assembly, const Finishes& finishes, const Eave& eave, Chance& chance);
 /// Pipe from the gutter of an eave, back to the wall and down to the ground at x.
@@ -67,13 +81,13 @@ void add_paving(Street& street, const Finishes& finishes, const Paving& paving);
 
 // Things in their own frames: y up, front towards +z. Standing things have their origin on the ground, hanging and
 // mounted ones where they are fixed.
-Assembly globe_lamp(const Finishes& finishes);        // on a bracket
-Assembly wall_lantern(const Finishes& finishes);      // iron, on an arm of 1 m
+Assembly globe_lamp(const Finishes& finishes);               // on a bracket
+Assembly wall_lantern(const Finishes& finishes);             // iron, on an arm of 1 m
 Assembly paper_lantern(const Finishes& finishes, bool red);  // hangs by its cord
 Assembly floor_lantern(const Finishes& finishes);
 Assembly standing_sign(const Finishes& finishes, bool tall);
-Assembly box_sign(const Finishes& finishes);          // lit, projects from the wall
-Assembly hanging_board(const Finishes& finishes);     // large wooden signboard under a little roof, projects
+Assembly box_sign(const Finishes& finishes);       // lit, projects from the wall
+Assembly hanging_board(const Finishes& finishes);  // large wooden signboard under a little roof, projects
 Assembly noren(const Finishes& finishes, float width, float height);  // hangs from its rod
 Assembly bush(const Finishes& finishes, uint64_t seed, float height, int leaves, bool dark);
 Assembly palm(const Finishes& finishes, uint64_t seed, float height);
@@ -89,5 +103,8 @@ Assembly crates(const Finishes& finishes);
 Assembly utility_pole(const Finishes& finishes);
 /// Cable that sags by `sag` metres between two points.
 void add_cable(Assembly& assembly, const Finishes& finishes, Vec3 from, Vec3 to, float sag, float radius = 0.008f);
+
+/// Places all that hangs and stands in the lane.
+void add_furniture(Street& street, const Finishes& finishes);
 
 }  // namespace pluvia::lane

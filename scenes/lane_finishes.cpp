@@ -11,11 +11,13 @@ namespace pluvia::lane {
 namespace {
 
 // Linear Rec.709 colours of black bodies, largest channel 1.
-constexpr Rgb incandescent = {1, 0.40f, 0.10f};   // 2700 K
-constexpr Rgb halogen = {1, 0.46f, 0.15f};        // 3000 K
-constexpr Rgb fluorescent = {1, 0.78f, 0.62f};    // 5000 K
+constexpr Rgb incandescent = {1, 0.40f, 0.10f};  // 2700 K
+constexpr Rgb halogen = {1, 0.46f, 0.15f};       // 3000 K
+constexpr Rgb fluorescent = {1, 0.78f, 0.62f};   // 5000 K
 
-Rgb nits(Rgb color, float cd_per_m2) { return color * (cd_per_m2 / luminance(color)); }
+Rgb nits(Rgb color, float cd_per_m2) {
+    return color * (cd_per_m2 / luminance(color));
+}
 
 Material matte(const char* name, Rgb base_color, float roughness = 1) {
     Material m;
@@ -23,12 +25,6 @@ Material matte(const char* name, Rgb base_color, float roughness = 1) {
     m.base_color = base_color;
     m.metallic = 0;
     m.roughness = roughness;
-    return m;
-}
-
-Material metal(const char* name, Rgb base_color, float roughness) {
-    Material m = matte(name, base_color, roughness);
-    m.metallic = 1;
     return m;
 }
 
@@ -55,8 +51,7 @@ float ink_at(const Ink& ink, float x, float y) {
 
 /// Sheet of one colour written on in another.
 Image<Rgba8> written(const Ink& ink, Rgb sheet, Rgb writing) {
-    return paint_color(ink.width, ink.height,
-                       [&](float x, float y) { return mix(sheet, writing, ink_at(ink, x, y)); });
+    return paint_color(ink.width, ink.height, [&](float x, float y) { return mix(sheet, writing, ink_at(ink, x, y)); });
 }
 
 /// Paper window from inside: brighter in the middle, wooden bars, the shade of something on the sill.
@@ -84,7 +79,9 @@ Image<Rgba8> lantern_picture(const std::vector<std::string>& names, Rgb paper, R
     });
 }
 
-int picture(Street& street, Image<Rgba8> image) { return add_texture(street.scene, std::move(image), Wrap::clamp); }
+int picture(Street& street, Image<Rgba8> image) {
+    return add_texture(street.scene, std::move(image), Wrap::clamp);
+}
 
 void add_wood_and_walls(Street& street, Finishes& f) {
     const MapTextures grain = add_textures(street.scene, wood());
@@ -106,8 +103,8 @@ void add_wood_and_walls(Street& street, Finishes& f) {
     f.concrete = add_finish(street, matte("concrete", Rgb(0.95f, 0.97f, 1.0f)), stone, {2.9f, 2.9f});
     f.soil = add_finish(street, matte("soil", Rgb(1)), add_textures(street.scene, soil()), {0.5f, 0.5f});
     f.clay = add_finish(street, matte("clay", Rgb(1)), add_textures(street.scene, clay()), {0.8f, 0.8f});
-    f.tiled_roof = add_finish(street, matte("tiled_roof", Rgb(1)), add_textures(street.scene, tiled_roof()),
-                              {1.06f, 0.94f});
+    f.tiled_roof =
+        add_finish(street, matte("tiled_roof", Rgb(1)), add_textures(street.scene, tiled_roof()), {1.06f, 0.94f});
 }
 
 void add_metals(Street& street, Finishes& f) {
@@ -119,7 +116,6 @@ void add_metals(Street& street, Finishes& f) {
     f.iron = add_finish(street, matte("iron", {0.05f, 0.048f, 0.045f}, 0.45f));
     f.rubber = add_finish(street, matte("rubber", {0.03f, 0.03f, 0.03f}, 0.7f));
     f.glass = add_finish(street, matte("glass", {0.03f, 0.035f, 0.04f}, 0.06f));
-    f.brass = add_finish(street, metal("brass", {0.75f, 0.58f, 0.32f}, 0.4f));
     f.terracotta = add_finish(street, matte("terracotta", {0.34f, 0.15f, 0.09f}, 0.85f));
     f.porcelain = add_finish(street, matte("porcelain", {0.62f, 0.61f, 0.58f}, 0.25f));
 }
@@ -154,15 +150,16 @@ void add_lit(Street& street, Finishes& f) {
     write_column(panel, {"cha", "sake"}, 390, 90, 400, 0.1f);
     draw_line(panel, {130, 660}, {400, 660}, 22);
     draw_line(panel, {130, 660}, {180, 615}, 22);
-    f.lit_sign = lit("lit_sign", Rgb(0.8f), nits(fluorescent, 420), written(panel, Rgb(1), {0.03f, 0.03f, 0.035f}));
+    f.lit_sign = lit("lit_sign", Rgb(0.8f), nits(fluorescent, 420), written(panel, Rgb(1), Rgb(0.006f)));
     Ink column(256, 768);
     write_column(column, {"hana", "no", "ki"}, 128, 60, 560, 0.125f);
     draw_line(column, {60, 640}, {196, 640}, 8);
     draw_line(column, {84, 690}, {172, 690}, 8);
-    f.lit_sign_tall = lit("lit_sign_tall", Rgb(0.8f), nits(fluorescent, 380), written(column, Rgb(1), {0.04f, 0.02f, 0.02f}));
+    f.lit_sign_tall = lit("lit_sign_tall", Rgb(0.8f), nits(fluorescent, 380), written(column, Rgb(1), Rgb(0.006f)));
     Ink box(256, 512);
     write_column(box, {"sake", "ya"}, 128, 40, 470, 0.11f);
-    f.lit_sign_box = lit("lit_sign_box", Rgb(0.8f), nits(halogen, 480), written(box, {1, 0.86f, 0.6f}, {0.25f, 0.01f, 0.01f}));
+    f.lit_sign_box =
+        lit("lit_sign_box", Rgb(0.8f), nits(halogen, 480), written(box, {1, 0.86f, 0.6f}, {0.12f, 0.004f, 0.004f}));
 }
 
 void add_signs(Street& street, Finishes& f) {

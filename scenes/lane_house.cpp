@@ -3,10 +3,9 @@
 #include "scenes/lane_bays.h"
 #include "scenes/noise.h"
 
-#include "renderer/core/units.h"
-
 #include <algorithm>
-#include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace pluvia::lane {
 namespace {
@@ -23,9 +22,10 @@ public:
         const float w = house_.width;
         add_box(a[house_.walls], {0, 0, -house_.body_depth}, {w, house_.eave_height, recess});
         for (float x = 0; x < w - 0.01f;) {  // plinth of cut stones
-            const float end = x + chance_(0.7f, 1.2f), next = w - end < 0.4f ? w : end, front = 0.05f + chance_(0, 0.012f);
-            add_box(a[f_.granite], {x + 0.004f, -0.1f, recess}, {next - 0.004f, plinth_height, front}, chance_.tint(0.3f),
-                    0.012f);
+            const float end = x + chance_(0.7f, 1.2f), next = w - end < 0.4f ? w : end,
+                        front = 0.05f + chance_(0, 0.012f);
+            add_box(a[f_.granite], {x + 0.004f, -0.1f, recess}, {next - 0.004f, plinth_height, front},
+                    chance_.tint(0.3f), 0.012f);
             x = next;
         }
         beam(plinth_height, sill_height, 0.03f);
@@ -57,14 +57,18 @@ private:
     }
 
     void roofs() {
-        const Eave upper = {.width = house_.width, .wall_height = house_.eave_height + 0.12f, .depth = 0.62f,
+        const Eave upper = {.width = house_.width,
+                            .wall_height = house_.eave_height + 0.12f,
+                            .depth = 0.62f,
                             .back = 0.5f * house_.body_depth};
         add_eave(assembly_, f_, upper, chance_);
-        const Eave lower = {.width = house_.width, .wall_height = house_.ground_height + 0.4f, .depth = house_.lower_roof_depth};
+        const Eave lower = {
+            .width = house_.width, .wall_height = house_.ground_height + 0.4f, .depth = house_.lower_roof_depth};
         if (lower.depth > 0) {
             add_eave(assembly_, f_, lower, chance_);
             for (const float x : {0.06f, 0.5f * house_.width, house_.width - 0.06f})  // brackets that carry it
-                add_beam(assembly_[house_.posts], {x, lower.wall_height - 0.42f, 0}, {x, lower.wall_height - 0.44f, 0.9f * lower.depth}, {0, 1, 0}, 0.09f, 0.1f);
+                add_beam(assembly_[house_.posts], {x, lower.wall_height - 0.42f, 0},
+                         {x, lower.wall_height - 0.44f, 0.9f * lower.depth}, {0, 1, 0}, 0.09f, 0.1f);
         }
         for (const float x : house_.downpipes) add_downpipe(assembly_, f_, lower.depth > 0 ? lower : upper, x);
     }

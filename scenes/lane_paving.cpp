@@ -2,7 +2,6 @@
 #include "scenes/lane.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pluvia::lane {
 namespace {
@@ -17,7 +16,8 @@ void add_slab(Shape& shape, float x0, float x1, float z_near, float z_far, float
     add_box(slab, {-0.5f * w, -0.5f * d, -0.12f}, {0.5f * w, 0.5f * d, 0}, chance.tint(0.42f), 0.011f);
     const float tilt = chance(-0.007f, 0.007f), roll = chance(-0.007f, 0.007f);
     const Transform settle = rotate(0.5 * tilt, 0.5 * roll, 0, 1);
-    append(shape, slab, translate({0.5 * (x0 + x1), top + chance(-0.004f, 0.004f), 0.5 * (z_near + z_far)}) * lying * settle);
+    append(shape, slab,
+           translate({0.5 * (x0 + x1), top + chance(-0.004f, 0.004f), 0.5 * (z_near + z_far)}) * lying * settle);
 }
 
 /// Iron grate: a frame with bars across.
@@ -43,7 +43,8 @@ void add_paving(Street& street, const Finishes& f, const Paving& paving) {
         for (float x = -edge; x < edge;) {
             float x_next = x + chance(0.42f, 0.95f);
             if (edge - x_next < 0.3f) x_next = edge;
-            add_slab(slabs[f.granite], x + 0.006f, x_next - 0.006f, z - 0.006f, z_next + 0.006f, height(0.5f * (x + x_next)), chance);
+            add_slab(slabs[f.granite], x + 0.006f, x_next - 0.006f, z - 0.006f, z_next + 0.006f,
+                     height(0.5f * (x + x_next)), chance);
             x = x_next;
         }
         z = z_next;
@@ -53,11 +54,14 @@ void add_paving(Street& street, const Finishes& f, const Paving& paving) {
         for (const bool right : {false, true}) {
             const float x0 = right ? edge + 0.01f : -half_width + 0.01f, x1 = x0 + drain - 0.02f;
             const float top = -crown - 0.004f;
-            if ((index + (right ? 3 : 0)) % 5 == 0) add_grate(drains[f.iron], x0, x1, z - 0.006f, z - 0.594f, top);
-            else add_slab(drains[f.concrete], x0, x1, z - 0.006f, z - 0.594f, top, chance);
+            if ((index + (right ? 3 : 0)) % 5 == 0)
+                add_grate(drains[f.iron], x0, x1, z - 0.006f, z - 0.594f, top);
+            else
+                add_slab(drains[f.concrete], x0, x1, z - 0.006f, z - 0.594f, top, chance);
         }
     const float joint = -crown - 0.02f, reach = half_width + 0.2f;
-    add_quad(slabs[f.soil], {Vec3{-reach, joint, near}, {reach, joint, near}, {reach, joint, far}, {-reach, joint, far}}, {0, 0},
+    add_quad(slabs[f.soil],
+             {Vec3{-reach, joint, near}, {reach, joint, near}, {reach, joint, far}, {-reach, joint, far}}, {0, 0},
              {2 * reach, far - near});
     place_once(street, "lane/" + paving.name + "_slabs", slabs, paving.scene_from_paving);
     place_once(street, "lane/" + paving.name + "_drains", drains, paving.scene_from_paving);

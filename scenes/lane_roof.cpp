@@ -9,7 +9,8 @@
 namespace pluvia::lane {
 namespace {
 
-constexpr float tile_width = 0.265f, tile_exposure = 0.235f, tile_overlap = 0.05f;  // the common Japanese pan tile (53 A)
+constexpr float tile_width = 0.265f, tile_exposure = 0.235f,
+                tile_overlap = 0.05f;  // the common Japanese pan tile (53 A)
 constexpr float gutter_radius = 0.055f;
 
 /// Height of a pan tile above its lowest point, s from 0 to 1 across: a flat trough and a roll at the right.
@@ -32,12 +33,15 @@ void add_tiles(Shape& shape, float width, float slope_length, Chance& chance) {
                 return SheetPoint{{x0 + s * pitch, y, z}, {s * pitch, -y}};
             };
             add_sheet(shape, 6, 1, top, tint);
-            add_sheet(shape, 6, 1, [&](float s, float t) {
-                SheetPoint p = top(s, 0);
-                p.position.z -= (1 - t) * 0.02f;
-                p.uv.y += 1 - t;
-                return p;
-            }, tint);
+            add_sheet(
+                shape, 6, 1,
+                [&](float s, float t) {
+                    SheetPoint p = top(s, 0);
+                    p.position.z -= (1 - t) * 0.02f;
+                    p.uv.y += 1 - t;
+                    return p;
+                },
+                tint);
         }
     // The first course ends in round faces under its rolls.
     for (int column = 0; column < columns; ++column) {
@@ -70,7 +74,8 @@ void add_eave(Assembly& assembly, const Finishes& f, const Eave& eave, Chance& c
     append(assembly[f.dark_wood], rafters, facade_from_roof);
 
     if (eave.back > 0) {
-        const Vec3 low = {0, eave.wall_height + 0.03f, 0}, high = {0, eave.wall_height + 0.03f + eave.pitch * eave.back, -eave.back};
+        const Vec3 low = {0, eave.wall_height + 0.03f, 0},
+                   high = {0, eave.wall_height + 0.03f + eave.pitch * eave.back, -eave.back};
         const Vec3 right = {eave.width, 0, 0};
         const float behind = length(high - low);
         add_quad(assembly[f.tiled_roof], {low, low + right, high + right, high}, {0, 0}, {eave.width, -behind});
@@ -79,11 +84,13 @@ void add_eave(Assembly& assembly, const Finishes& f, const Eave& eave, Chance& c
         add_box(assembly[f.clay], {0, high.y - 0.03f, high.z - 0.12f}, {eave.width, high.y + 0.22f, high.z + 0.12f});
         for (const float x : {0.0f, eave.width}) {
             const float w = eave.wall_height, ridge = high.y;
-            const std::array<Vec3, 4> gable = {Vec3{x, w, -2 * eave.back}, {x, w, 0}, {x, ridge, high.z + 0.02f}, {x, ridge, high.z - 0.02f}};
+            const std::array<Vec3, 4> gable = {
+                Vec3{x, w, -2 * eave.back}, {x, w, 0}, {x, ridge, high.z + 0.02f}, {x, ridge, high.z - 0.02f}};
             add_quad(assembly[f.white_plaster], gable, {0, 0}, {2 * eave.back, -(ridge - w)});
         }
     } else {
-        add_box(assembly[f.clay], {0, eave.wall_height - 0.01f, -0.02f}, {eave.width, eave.wall_height + 0.1f, 0.1f}, {}, 0.02f);
+        add_box(assembly[f.clay], {0, eave.wall_height - 0.01f, -0.02f}, {eave.width, eave.wall_height + 0.1f, 0.1f},
+                {}, 0.02f);
     }
 
     // Half-round gutter with its hangers.
@@ -111,8 +118,8 @@ void add_downpipe(Assembly& assembly, const Finishes& f, const Eave& eave, float
     Shape funnel;
     add_lathe(funnel, {{0.03f, -0.2f}, {0.045f, -0.12f}, {0.075f, -0.1f}, {0.085f, 0.01f}}, 12, {0.5f, 0.3f});
     append(assembly[f.copper], funnel, translate({x, top, out}));
-    const std::vector<Vec3> path = {{x, top - 0.15f, out},   {x, top - 0.3f, out},    {x, top - 0.42f, wall},
-                                    {x, top - 0.62f, wall},  {x, 0.2f, wall},         {x, 0.08f, wall + 0.12f}};
+    const std::vector<Vec3> path = {{x, top - 0.15f, out},  {x, top - 0.3f, out}, {x, top - 0.42f, wall},
+                                    {x, top - 0.62f, wall}, {x, 0.2f, wall},      {x, 0.08f, wall + 0.12f}};
     add_tube(assembly[f.copper], rounded(path, 0.1f, 5), radius, 12);
     for (float y = 0.5f; y < top - 0.6f; y += 0.9f) {  // clamps
         add_tube(assembly[f.iron], {{x, y - 0.015f, wall}, {x, y + 0.015f, wall}}, radius + 0.006f, 12);

@@ -7,7 +7,9 @@
 namespace pluvia {
 namespace {
 
-int wrapped(int i, int period) { return ((i % period) + period) % period; }
+int wrapped(int i, int period) {
+    return ((i % period) + period) % period;
+}
 
 uint64_t cell_key(int x, int y, int period_x, int period_y, uint64_t seed) {
     return mix_bits(seed * 0x9e3779b97f4a7c15ull +

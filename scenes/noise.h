@@ -25,6 +25,8 @@ constexpr float smooth_step(float a, float b, float x) {
 }
 
 /// 1 at x = 0, falling to 0 at |x| = width.
-constexpr float bump(float x, float width) { return 1 - smooth_step(0, width, x < 0 ? -x : x); }
+constexpr float bump(float x, float width) {
+    return 1 - smooth_step(0, width, x < 0 ? -x : x);
+}
 
 }  // namespace pluvia

@@ -71,8 +71,10 @@ void append(Shape& shape, const Shape& part, const Transform& shape_from_part) {
     shape.uvs.insert(shape.uvs.end(), part.uvs.begin(), part.uvs.end());
     shape.colors.insert(shape.colors.end(), part.colors.begin(), part.colors.end());
     for (const auto& [a, b, c] : part.triangles) {
-        if (mirrored) shape.triangles.push_back({first + a, first + c, first + b});
-        else shape.triangles.push_back({first + a, first + b, first + c});
+        if (mirrored)
+            shape.triangles.push_back({first + a, first + c, first + b});
+        else
+            shape.triangles.push_back({first + a, first + b, first + c});
     }
 }
 
@@ -91,7 +93,8 @@ void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint, float bevel
         return Vec3{bits & 1 ? upper.x : lower.x, bits & 2 ? upper.y : lower.y, bits & 4 ? upper.z - bevel : lower.z};
     };
     const auto inner = [&](int bits) {
-        return Vec3{bits & 1 ? upper.x - bevel : lower.x + bevel, bits & 2 ? upper.y - bevel : lower.y + bevel, upper.z};
+        return Vec3{bits & 1 ? upper.x - bevel : lower.x + bevel, bits & 2 ? upper.y - bevel : lower.y + bevel,
+                    upper.z};
     };
     const auto face = [&](const std::array<Vec3, 4>& p) {
         add_grained_face(shape, p, grain, normalize(cross(p[2] - p[0], p[3] - p[1])), tint);
@@ -108,9 +111,11 @@ void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint, float bevel
 }
 
 void add_plank(Shape& shape, Vec3 lower, Vec3 upper, float edge, const Tint& tint) {
-    const float xs[4] = {lower.x, lower.x + edge, upper.x - edge, upper.x}, zs[4] = {lower.z, upper.z, upper.z, lower.z};
+    const float xs[4] = {lower.x, lower.x + edge, upper.x - edge, upper.x},
+                zs[4] = {lower.z, upper.z, upper.z, lower.z};
     for (int k = 0; k < 3; ++k) {
-        const Vec3 left = {xs[k], lower.y, zs[k]}, right = {xs[k + 1], lower.y, zs[k + 1]}, up = {0, upper.y - lower.y, 0};
+        const Vec3 left = {xs[k], lower.y, zs[k]}, right = {xs[k + 1], lower.y, zs[k + 1]},
+                   up = {0, upper.y - lower.y, 0};
         add_quad(shape, {left, right, right + up, left + up}, {xs[k], -lower.y}, {xs[k + 1], -upper.y}, tint);
     }
 }
@@ -165,8 +170,10 @@ void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sid
             add_vertex(shape, shape.positions[ring + k], d, Vec2{std::cos(phi), std::sin(phi)} * radius, tint);
         }
         for (int k = 1; k + 1 < sides; ++k) {
-            if (at_end) shape.triangles.push_back({base, base + k, base + k + 1});
-            else shape.triangles.push_back({base, base + k + 1, base + k});
+            if (at_end)
+                shape.triangles.push_back({base, base + k, base + k + 1});
+            else
+                shape.triangles.push_back({base, base + k + 1, base + k});
         }
     }
 }

@@ -40,7 +40,8 @@ SurfaceMaps paint(int width, int height, Vec2 size, const std::function<Texel(fl
         for (int x = 0; x < width; ++x) {
             const Texel t = texel((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height));
             maps.base_color.at(x, y) = coded(t.albedo, t.alpha);
-            maps.metallic_roughness.at(x, y) = {255, byte_from_display(t.roughness), byte_from_display(t.metallic), 255};
+            maps.metallic_roughness.at(x, y) = {255, byte_from_display(t.roughness), byte_from_display(t.metallic),
+                                                255};
             heights.at(x, y) = t.height;
         }
     });

@@ -12,9 +12,9 @@ namespace pluvia {
 
 /// Pictures of one material, as the slots of Material expect them.
 struct SurfaceMaps {
-    Image<Rgba8> base_color;           // sRGB
-    Image<Rgba8> metallic_roughness;   // roughness in g, metallic in b
-    Image<Rgba8> normal;               // tangent space, green up
+    Image<Rgba8> base_color;          // sRGB
+    Image<Rgba8> metallic_roughness;  // roughness in g, metallic in b
+    Image<Rgba8> normal;              // tangent space, green up
 };
 
 /// One texel of a material before it is coded.

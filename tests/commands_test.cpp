@@ -9,12 +9,12 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <fcntl.h>
+#include <sys/wait.h>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <fcntl.h>
 #include <set>
-#include <sys/wait.h>
 #include <thread>
 
 namespace pluvia {
@@ -33,7 +33,8 @@ Outcome run_program(const std::string& arguments) {
     const std::string command =
         std::string(PLUVIA_PROGRAM) + " " + arguments + " >" + (logs / "out") + " 2>" + (logs / "err") + " </dev/null";
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(logs / "out"), read_file(logs / "err")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(logs / "out"),
+            read_file(logs / "err")};
 }
 
 /// A court with a lamp, as a user's file.
@@ -70,7 +71,8 @@ TEST_CASE("every command explains itself with an example") {
 TEST_CASE("a frame has all its files, layers and records") {
     const TemporaryFolder folder;
     const std::string scene = write_scene(folder), out = folder / "frame";
-    const Outcome done = run_program("render " + scene + small + "--rain 12.5,100 --streak-width 0.25 --json -o " + out);
+    const Outcome done =
+        run_program("render " + scene + small + "--rain 12.5,100 --streak-width 0.25 --json -o " + out);
     CAPTURE(done.err);
     REQUIRE(done.exit_code == 0);
     CHECK(names_in(out) == std::set<std::string>{"background.png", "depth.png", "frame.exr", "frame.json",
@@ -177,12 +179,13 @@ TEST_CASE("an interrupted render stops with 75 and leaves no file that looks fin
     if (child == 0) {
         const int null = open("/dev/null", O_WRONLY);
         dup2(null, 1), dup2(null, 2);
-        execl(PLUVIA_PROGRAM, "pluvia", "render", scene.c_str(), "-o", out.c_str(), "--spp", "100000", "--progress", "none",
-              static_cast<char*>(nullptr));
+        execl(PLUVIA_PROGRAM, "pluvia", "render", scene.c_str(), "-o", out.c_str(), "--spp", "100000", "--progress",
+              "none", static_cast<char*>(nullptr));
         _exit(127);
     }
     // Wait until it renders: then the picture is being written under its temporary name.
-    for (int i = 0; i < 400 && !fs::exists(out + "/frame.tmp.exr"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    for (int i = 0; i < 400 && !fs::exists(out + "/frame.tmp.exr"); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(25));
     kill(child, SIGINT);
     int status = 0;
     waitpid(child, &status, 0);
@@ -193,7 +196,8 @@ TEST_CASE("an interrupted render stops with 75 and leaves no file that looks fin
 
 TEST_CASE("progress as JSON lines can be parsed") {
     const TemporaryFolder folder;
-    const Outcome o = run_program("render " + write_scene(folder) + " --size 64x32 --spp 2 --progress json -o " + (folder / "out"));
+    const Outcome o =
+        run_program("render " + write_scene(folder) + " --size 64x32 --spp 2 --progress json -o " + (folder / "out"));
     REQUIRE(o.exit_code == 0);
     const std::string last = o.err.substr(o.err.rfind('\n', o.err.size() - 2) + 1);
     CHECK(Json::parse(last)["progress"] == 1.0);
@@ -211,7 +215,8 @@ TEST_CASE("inspect tells what a scene requires, what a frame holds and what rain
     CHECK(frame["width"] == 64);
     CHECK(frame["attributes"]["pluvia:settings"]["spp"] == 2);
     const Json rain = Json::parse(run_program("inspect --rain 100 --json").out);
-    CHECK(rain["rain"]["100"]["drops_per_m3"].get<double>() == doctest::Approx(4391).epsilon(1e-3));  // Marshall and Palmer
+    CHECK(rain["rain"]["100"]["drops_per_m3"].get<double>() ==
+          doctest::Approx(4391).epsilon(1e-3));  // Marshall and Palmer
 }
 
 }  // namespace pluvia

@@ -34,12 +34,18 @@ const std::vector<Room> rooms = {
 
 /// Start of an outside include and the files that may have it. tools/bench measures libraries themselves.
 const std::map<std::string, std::string> doors = {
-    {"embree", "renderer/accel/ray_scene"}, {"tbb/", "renderer/core/parallel"},
-    {"tiny_gltf", "renderer/scene/gltf_"},  {"OpenImageIO", "renderer/image/image_io"},
-    {"OpenEXR", "renderer/image/exr"},      {"Imf", "renderer/image/exr"},
-    {"Imath", "renderer/image/exr"},        {"OpenColorIO", "renderer/image/color"},
-    {"CLI/", "tools/"},                     {"yaml-cpp", "tools/config"},
-    {"torch/", "tools/learning/"},          {"doctest", "tests/"},
+    {"embree", "renderer/accel/ray_scene"},
+    {"tbb/", "renderer/core/parallel"},
+    {"tiny_gltf", "renderer/scene/gltf_"},
+    {"OpenImageIO", "renderer/image/image_io"},
+    {"OpenEXR", "renderer/image/exr"},
+    {"Imf", "renderer/image/exr"},
+    {"Imath", "renderer/image/exr"},
+    {"OpenColorIO", "renderer/image/color"},
+    {"CLI/", "tools/"},
+    {"yaml-cpp", "tools/config"},
+    {"torch/", "tools/learning/"},
+    {"doctest", "tests/"},
 };
 
 struct Include {
@@ -58,7 +64,8 @@ std::vector<Include> all_includes() {
             for (std::string line; std::getline(file, line);) {
                 std::smatch match;
                 if (std::regex_search(line, match, line_pattern))
-                    includes.push_back({fs::relative(entry.path(), PLUVIA_SOURCE_DIR).string(), match[2], match[1] == "\""});
+                    includes.push_back(
+                        {fs::relative(entry.path(), PLUVIA_SOURCE_DIR).string(), match[2], match[1] == "\""});
             }
         }
     return includes;
@@ -78,7 +85,8 @@ TEST_CASE("every include goes to the same floor or down") {
         CAPTURE(include.file);
         CAPTURE(include.target);
         CHECK(fs::exists(fs::path(PLUVIA_SOURCE_DIR) / include.target));  // written from the root
-        const auto room = std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return is_under(include.file, r.folder); });
+        const auto room =
+            std::find_if(rooms.begin(), rooms.end(), [&](const Room& r) { return is_under(include.file, r.folder); });
         REQUIRE(room != rooms.end());
         CHECK(std::any_of(room->may_include.begin(), room->may_include.end(),
                           [&](const std::string& folder) { return is_under(include.target, folder); }));

@@ -61,19 +61,33 @@ Scene scene_of_everything() {
         scene.instances.push_back({name, instance_id(name), name == "alone" ? 1 : 0,
                                    translate({3.0 + double(name.size()), 1, 2}) * rotate(0.1, 0.2, 0.3, 0.9)});
     scene.lights = {{.name = "point", .intensity = {80, 40, 10}, .position = {1, 2, 3}},
-                    {.name = "spot", .kind = PunctualLight::Kind::spot, .intensity = Rgb(0.5f), .position = {3, 2, 1},
-                     .direction = {0.6f, -0.8f, 0}, .inner_cone_angle = 0.2f, .outer_cone_angle = 0.4f},
-                    {.name = "sun", .kind = PunctualLight::Kind::directional, .intensity = Rgb(1e5f), .position = {},
+                    {.name = "spot",
+                     .kind = PunctualLight::Kind::spot,
+                     .intensity = Rgb(0.5f),
+                     .position = {3, 2, 1},
+                     .direction = {0.6f, -0.8f, 0},
+                     .inner_cone_angle = 0.2f,
+                     .outer_cone_angle = 0.4f},
+                    {.name = "sun",
+                     .kind = PunctualLight::Kind::directional,
+                     .intensity = Rgb(1e5f),
+                     .position = {},
                      .direction = {0, -1, 0}}};
     scene.cameras = {{"eye", translate({0, 1.6, 5}) * rotate(0, 0.1, 0, 1), 0.7}};
     return scene;
 }
 
-bool close(double a, double b) { return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b)); }
+bool close(double a, double b) {
+    return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b));
+}
 // The strength of a colour is split off and multiplied back in single precision: two roundings.
-bool close(Rgb a, Rgb b) { return close(a.r, b.r) && close(a.g, b.g) && close(a.b, b.b); }
+bool close(Rgb a, Rgb b) {
+    return close(a.r, b.r) && close(a.g, b.g) && close(a.b, b.b);
+}
 // Coordinates a million metres from zero keep 1e-10 m in double; the sums of origin and translation round twice.
-bool close(Vec3d a, Vec3d b) { return length(a - b) < 1e-8; }
+bool close(Vec3d a, Vec3d b) {
+    return length(a - b) < 1e-8;
+}
 
 }  // namespace
 
@@ -161,7 +175,8 @@ TEST_CASE("lights and cameras come back with their measures") {
         CHECK(a.kind == b.kind);
         CHECK(close(a.intensity, b.intensity));
         CHECK(close(a.position + scene.origin, b.position + back.origin));
-        if (a.kind != PunctualLight::Kind::point) CHECK(length(a.direction - b.direction) < 1e-6f);  // one rounding each way
+        if (a.kind != PunctualLight::Kind::point)
+            CHECK(length(a.direction - b.direction) < 1e-6f);  // one rounding each way
         if (a.kind != PunctualLight::Kind::spot) continue;
         CHECK(a.inner_cone_angle == b.inner_cone_angle);
         CHECK(a.outer_cone_angle == b.outer_cone_angle);

@@ -11,7 +11,9 @@ namespace {
 Vec3 random_point(uint64_t seed, uint64_t index, float size) {
     return Vec3(uniform(seed, index, 0) - 0.5f, uniform(seed, index, 1) - 0.5f, uniform(seed, index, 2) - 0.5f) * size;
 }
-Vec3 random_direction(uint64_t seed, uint64_t index) { return sample_sphere(uniform_2d(seed, index, 10)); }
+Vec3 random_direction(uint64_t seed, uint64_t index) {
+    return sample_sphere(uniform_2d(seed, index, 10));
+}
 
 std::vector<LightBounds> random_lights(int count) {
     std::vector<LightBounds> lights;
@@ -45,7 +47,8 @@ TEST_CASE("lights are chosen with the probability that is reported for them") {
         for (uint64_t i = 0; i < n; ++i) {
             const auto choice = tree.choose(receiver, uniform(60 + r, i, 0));
             ++observed[choice ? size_t(choice->light) : lights.size()];
-            if (choice) CHECK(choice->probability == doctest::Approx(tree.probability(receiver, choice->light)).epsilon(1e-4));
+            if (choice)
+                CHECK(choice->probability == doctest::Approx(tree.probability(receiver, choice->light)).epsilon(1e-4));
         }
         double sum = 0;
         for (size_t k = 0; k < lights.size(); ++k) sum += expected[k] = n * double(tree.probability(receiver, int(k)));

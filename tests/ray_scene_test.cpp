@@ -10,7 +10,8 @@ namespace {
 /// Rays from a sphere around the scene towards its middle.
 Ray random_ray(uint64_t index) {
     const Vec3 from = sample_sphere(uniform_2d(1, index, 0)) * 20.0f;
-    const Vec3 to = (Vec3(uniform(2, index, 0), uniform(2, index, 1), uniform(2, index, 2)) - Vec3(0.5f, 0.5f, 0.5f)) * 6.0f;
+    const Vec3 to =
+        (Vec3(uniform(2, index, 0), uniform(2, index, 1), uniform(2, index, 2)) - Vec3(0.5f, 0.5f, 0.5f)) * 6.0f;
     return {from, normalize(to - from)};
 }
 
@@ -46,8 +47,10 @@ TEST_CASE("a mesh gives the same hits through instances as in copies, also mirro
         }
         if (!hit) continue;
         ++hits;
-        if (a.point.instance != b.point.instance || a.point.triangle != b.point.triangle) ++ties;
-        else CHECK(a.distance == doctest::Approx(b.distance).epsilon(1e-5));
+        if (a.point.instance != b.point.instance || a.point.triangle != b.point.triangle)
+            ++ties;
+        else
+            CHECK(a.distance == doctest::Approx(b.distance).epsilon(1e-5));
     }
     CHECK(hits > 3000);
     CHECK(ties <= hits / 200);  // rays that meet an edge within rounding

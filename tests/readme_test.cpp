@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <sys/wait.h>
 #include <cstdlib>
 #include <regex>
-#include <sys/wait.h>
 #include <vector>
 
 namespace pluvia {
@@ -21,8 +21,10 @@ std::vector<std::string> commands() {
     bool in_shell = false;
     std::istringstream readme(read_file(root + "/README.md"));
     for (std::string line; std::getline(readme, line);) {
-        if (line.starts_with("```")) in_shell = line == "```sh";
-        else if (in_shell && line.starts_with("build/pluvia")) lines.push_back(line);
+        if (line.starts_with("```"))
+            in_shell = line == "```sh";
+        else if (in_shell && line.starts_with("build/pluvia"))
+            lines.push_back(line);
     }
     std::istringstream demo(read_file(root + "/tools/demo.sh"));
     for (std::string line; std::getline(demo, line);)

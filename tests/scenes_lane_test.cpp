@@ -33,8 +33,8 @@ std::string bytes_of(const std::string& path) {
 }
 
 const Material& material_named(const Scene& scene, const std::string& name) {
-    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
-                                    [&](const Material& m) { return m.name == name; });
+    const auto found =
+        std::find_if(scene.materials.begin(), scene.materials.end(), [&](const Material& m) { return m.name == name; });
     REQUIRE_MESSAGE(found != scene.materials.end(), name);
     return *found;
 }
@@ -50,12 +50,18 @@ TEST_CASE("the lane has some tens of thousands of triangles and passes the scene
     CHECK_NOTHROW(check(lane(), "lane"));
 }
 
-TEST_CASE("every picture of the lane is used, and no material lacks one that its mesh brings coordinates for") {
+TEST_CASE("every picture of the lane is whole and used by a material, every material by a mesh") {
     std::vector<bool> used(lane().textures.size());
     for (const Material& m : lane().materials)
-        for (const int slot : {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
+        for (const int slot :
+             {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
             if (slot >= 0) used.at(size_t(slot)) = true;
     CHECK(std::count(used.begin(), used.end(), false) == 0);
+    for (size_t i = 0; i < lane().materials.size(); ++i) {
+        CAPTURE(lane().materials[i].name);
+        CHECK(std::any_of(lane().meshes.begin(), lane().meshes.end(),
+                          [&](const Mesh& m) { return m.material == int(i); }));
+    }
     for (const Texture& texture : lane().textures) {
         REQUIRE(texture.image >= 0);
         const Image<Rgba8>& image = lane().images.at(size_t(texture.image));
@@ -105,8 +111,8 @@ TEST_CASE("every triangle of the lane has an area, faces as its normals do, and 
 
 TEST_CASE("the lane's cameras stand in it and look along it") {
     const auto camera = [](const std::string& name) {
-        const auto found = std::find_if(lane().cameras.begin(), lane().cameras.end(),
-                                        [&](const Camera& c) { return c.name == name; });
+        const auto found =
+            std::find_if(lane().cameras.begin(), lane().cameras.end(), [&](const Camera& c) { return c.name == name; });
         REQUIRE_MESSAGE(found != lane().cameras.end(), name);
         return *found;
     };
@@ -124,11 +130,20 @@ TEST_CASE("the lane's cameras stand in it and look along it") {
 }
 
 TEST_CASE("what is lit in the lane has the luminance of its kind") {
-    struct Range { const char* name; float low, high; };
-    // cd/m2: windows 50 to 200, paper lanterns 300 to 1500, lit signs as bright as lanterns at most, lamp glass 3000 to 8000.
-    for (const auto& [name, low, high] : {Range{"lit_window", 50, 200}, {"warm_window", 50, 200}, {"white_lantern", 300, 1500},
-                                          {"red_lantern", 300, 1500}, {"lit_sign", 100, 600}, {"lit_sign_tall", 100, 600},
-                                          {"lit_sign_box", 100, 600}, {"lamp_glass", 3000, 8000}}) {
+    struct Range {
+        const char* name;
+        float low, high;
+    };
+    // cd/m2: windows 50 to 200, paper lanterns 300 to 1500, lit signs as bright as lanterns at most, lamp glass 3000 to
+    // 8000.
+    for (const auto& [name, low, high] : {Range{"lit_window", 50, 200},
+                                          {"warm_window", 50, 200},
+                                          {"white_lantern", 300, 1500},
+                                          {"red_lantern", 300, 1500},
+                                          {"lit_sign", 100, 600},
+                                          {"lit_sign_tall", 100, 600},
+                                          {"lit_sign_box", 100, 600},
+                                          {"lamp_glass", 3000, 8000}}) {
         const float nits = luminance(material_named(lane(), name).emission);
         CAPTURE(name);
         CHECK(nits >= low);

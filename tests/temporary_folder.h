@@ -1,12 +1,12 @@
 // A folder that is there for one test.
 #pragma once
 
+#include <unistd.h>
 #include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 
 namespace pluvia {
 

@@ -57,8 +57,9 @@ int add_sphere(Scene& scene, Vec3 centre, float radius, int segments, const Mate
     for (int i = 0; i <= rings; ++i)
         for (int k = 0; k < segments; ++k) {
             const float theta = pi * float(i) / float(rings), phi = 2 * pi * float(k) / float(segments);
-            mesh.positions.push_back(centre + Vec3(std::sin(theta) * std::cos(phi), std::cos(theta),
-                                                   std::sin(theta) * std::sin(phi)) * radius);
+            mesh.positions.push_back(
+                centre +
+                Vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)) * radius);
         }
     for (int i = 0; i < rings; ++i)
         for (int k = 0; k < segments; ++k) {
@@ -91,7 +92,9 @@ View look_at(Vec3d eye, Vec3d target, int width, int height, double focal_pixels
     return view;
 }
 
-View court_view(int width, int height) { return look_at({1, 1.6, 3.5}, {0, 1.4, -4}, width, height, 1.2 * width); }
+View court_view(int width, int height) {
+    return look_at({1, 1.6, 3.5}, {0, 1.4, -4}, width, height, 1.2 * width);
+}
 
 double Picture::mean(const std::string& channel) const {
     double sum = 0;

@@ -6,11 +6,14 @@
 namespace pluvia {
 namespace {
 
-Counters count(const Scene& scene, const Environment& environment, const RenderSettings& settings, View view = court_view(32, 16)) {
+Counters count(const Scene& scene, const Environment& environment, const RenderSettings& settings,
+               View view = court_view(32, 16)) {
     return render_picture(scene, environment, view, settings).report.counters;
 }
 
-Scene plain() { return make_court(lambert(Rgb(0.5f))); }
+Scene plain() {
+    return make_court(lambert(Rgb(0.5f)));
+}
 
 int add_texture(Scene& scene, Rgba8 texel) {
     scene.images.push_back(Image<Rgba8>(2, 2, texel));
@@ -22,9 +25,10 @@ int add_texture(Scene& scene, Rgba8 texel) {
 
 TEST_CASE("a plain scene calls no feature that it lacks") {
     const Counters c = count(plain(), Environment::uniform(Rgb(1)), {.samples = 2});
-    for (const Feature feature : {Feature::texture, Feature::normal_map, Feature::vertex_color, Feature::alpha,
-                                  Feature::emissive_surface, Feature::pane, Feature::local_light, Feature::lens,
-                                  Feature::streak_test, Feature::streak_hit, Feature::streak_path, Feature::paper_streak}) {
+    for (const Feature feature :
+         {Feature::texture, Feature::normal_map, Feature::vertex_color, Feature::alpha, Feature::emissive_surface,
+          Feature::pane, Feature::local_light, Feature::lens, Feature::streak_test, Feature::streak_hit,
+          Feature::streak_path, Feature::paper_streak}) {
         CAPTURE(feature_names[size_t(feature)]);
         CHECK(c[feature] == 0);
     }

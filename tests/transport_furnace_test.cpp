@@ -14,7 +14,8 @@ struct FurnaceResult {
     int outliers;  // pixels beyond five sigma
 };
 
-FurnaceResult furnace(const Scene& scene, const View& view, RenderSettings settings, const std::string& channel, int seeds) {
+FurnaceResult furnace(const Scene& scene, const View& view, RenderSettings settings, const std::string& channel,
+                      int seeds) {
     const Environment world = Environment::uniform(Rgb(1));
     std::vector<RunningMean> pixels(size_t(view.width) * view.height);
     for (int k = 0; k < seeds; ++k) {
@@ -78,6 +79,25 @@ TEST_CASE("in a uniform world surfaces that absorb nothing are invisible") {
         // 1e-3 is the accuracy of the tables of multiple scattering.
         CHECK(std::abs(result.mean_error) < 1e-3);
     }
+}
+
+TEST_CASE("in a uniform world a streak is as bright as what it hides") {
+    // Rain covers a hundredth of the pictures above, so that they would hide an error of its light.
+    const Scene scene = make_court(lambert(Rgb(1)));
+    RenderSettings settings;
+    settings.samples = 16;
+    settings.rain.intensities_mm_per_h = {100};
+    settings.rain.min_width_pixels = 0.05;
+    RunningMean excess;
+    for (uint64_t seed = 0; seed < 64; ++seed) {
+        settings.seed = settings.rain.seed = seed;
+        const Picture picture = render_picture(scene, Environment::uniform(Rgb(1)), court_view(64, 32), settings);
+        excess.add(picture.mean("rain_100.G") / picture.mean("rain_100.A") - 1);
+    }
+    CAPTURE(excess.mean());
+    CAPTURE(excess.standard_error());
+    CHECK(excess.agrees_with(0));
+    CHECK(excess.standard_error() < 5e-3);
 }
 
 }  // namespace pluvia

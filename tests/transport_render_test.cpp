@@ -1,6 +1,8 @@
 // Frames as wholes: the same bytes whatever the machine does, the algebra of the layers, and what rain does to them.
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
+#include "renderer/rain/drop_size.h"
+#include "shaders/raindrop.h"
 #include "tests/statistics.h"
 #include "tests/test_scenes.h"
 
@@ -77,8 +79,9 @@ TEST_CASE("rainy is background times transmittance plus rain plus in-scatter in 
             for (const char* c : {".R", ".G", ".B"})
                 for (size_t i = 0; i < p.plane("Z").size(); ++i) {
                     const std::string l = label;
-                    const double sum = double(p.plane(std::string("background") + c)[i]) * p.plane("transmittance_" + l + c)[i] +
-                                       p.plane("rain_" + l + c)[i] + p.plane("inscatter_" + l + c)[i];
+                    const double sum =
+                        double(p.plane(std::string("background") + c)[i]) * p.plane("transmittance_" + l + c)[i] +
+                        p.plane("rain_" + l + c)[i] + p.plane("inscatter_" + l + c)[i];
                     const double rainy = p.plane("rainy_" + l + c)[i];
                     worst = std::max(worst, std::abs(sum - rainy) / std::max(rainy, 1e-30));
                 }
@@ -132,8 +135,7 @@ TEST_CASE("a scene a million metres away renders the same within noise") {
         noise += std::pow(a.plane("background.G")[i] - b.plane("background.G")[i], 2);
         difference += std::pow(a.plane("background.G")[i] - far.plane("background.G")[i], 2);
         // The ground is flat: depths differ by the rounding of doubles at a million metres, 1e-10 m, and of float.
-        if (std::isfinite(a.plane("Z")[i]))
-            CHECK(far.plane("Z")[i] == doctest::Approx(a.plane("Z")[i]).epsilon(1e-5));
+        if (std::isfinite(a.plane("Z")[i])) CHECK(far.plane("Z")[i] == doctest::Approx(a.plane("Z")[i]).epsilon(1e-5));
     }
     CHECK(difference < 1.3 * noise);  // two sums of 2048 squares: 3 % sigma each
     CHECK(difference > 0);
@@ -197,7 +199,8 @@ TEST_CASE("a lens blurs what is out of focus and keeps its light") {
         const Picture p = render_picture(scene, Environment(), view, {.samples = 256});
         double difference = 0;
         for (size_t i = 0; i < p.plane("Z").size(); ++i)
-            difference = std::max(difference, double(std::abs(p.plane("background.G")[i] - pinhole.plane("background.G")[i])));
+            difference =
+                std::max(difference, double(std::abs(p.plane("background.G")[i] - pinhole.plane("background.G")[i])));
         CAPTURE(focus);
         CHECK((difference < 0.2) == (focus == 2.0));  // in focus only the sampled edges differ
         CHECK(p.mean("background.G") == doctest::Approx(pinhole.mean("background.G")).epsilon(0.01));
@@ -210,7 +213,9 @@ TEST_CASE("an interrupted render throws and leaves nobody waiting") {
     settings.samples = 1, settings.tile_size = 8;
     int calls = 0;
     try {
-        render(scene, grey_world(), court_view(64, 1024), settings, [](const Band&) {}, [&](double) { return ++calls < 40; });
+        render(
+            scene, grey_world(), court_view(64, 1024), settings, [](const Band&) {},
+            [&](double) { return ++calls < 40; });
         FAIL("was not stopped");
     } catch (const Error& e) {
         CHECK(e.code() == ExitCode::stopped_early);
@@ -222,7 +227,66 @@ TEST_CASE("a band sink that fails stops the render with its error") {
     RenderSettings settings;
     settings.samples = 1, settings.tile_size = 8;
     const auto full_disk = [](const Band&) { throw Error(ExitCode::render_failed, "disk", "is full"); };
-    CHECK_THROWS_AS(render(scene, grey_world(), court_view(64, 512), settings, full_disk, [](double) { return true; }), Error);
+    CHECK_THROWS_AS(render(scene, grey_world(), court_view(64, 512), settings, full_disk, [](double) { return true; }),
+                    Error);
+}
+
+TEST_CASE("a picture of many narrow bands is finished by threads that overtake each other") {
+    const Scene nothing;
+    View view = court_view(8, 4096);
+    RenderSettings settings;
+    settings.samples = 1, settings.tile_size = 8;
+    set_thread_count(16);
+    for (int i = 0; i < 20; ++i) CHECK(render_picture(nothing, grey_world(), view, settings).mean("background.G") == 1);
+    set_thread_count(0);
+}
+
+TEST_CASE(
+    "mean coverage is the optical depth of the drops that are wide enough, and their light by night one scattering") {
+    // Nothing but rain and a lamp behind it.
+    Scene scene;
+    const double intensity = 100, least_width = 0.04, candela = 500;
+    const Vec3d to_lamp(1.5, 0, 12);  // from the camera, view axes
+    scene.lights.push_back({.name = "lamp", .intensity = Rgb(float(candela)), .position = {1.5, 500, -12}});
+    const View view = look_at({0, 500, 0}, {0, 500, -1}, 32, 16, 64);
+    RenderSettings settings = rainy({intensity});
+    settings.rain.min_width_pixels = least_width;
+    RunningMean coverage, light;
+    for (uint64_t seed = 0; seed < 64; ++seed) {
+        settings.seed = settings.rain.seed = seed;
+        const Picture picture = render_picture(scene, Environment(), view, settings);
+        coverage.add(picture.mean("rain_100.A"));
+        light.add(picture.mean("rain_100.G"));
+    }
+
+    RunningMean expected_coverage, expected_light;
+    const double near = settings.rain.near, far = largest_drop * view.focal_pixels / least_width;
+    constexpr int steps = 2000;
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x) {
+            const Vec3d direction(view.view_direction({float(x) + 0.5f, float(y) + 0.5f}));
+            double depth = 0, scattered = 0;
+            for (int i = 0; i < steps; ++i) {
+                const double z = near + (far - near) * (i + 0.5) / steps;
+                const double smallest = std::max(smallest_drop, least_width * z / view.focal_pixels);
+                const double step =
+                    extinction(intensity, smallest, largest_drop) * length(direction) * (far - near) / steps;
+                const Vec3d rest = to_lamp - direction * z;
+                const double cosine = dot(rest, direction) / (length(rest) * length(direction));
+                scattered += std::exp(-depth) * step * drop_phase(float(cosine)) * candela / length_squared(rest);
+                depth += step;
+            }
+            expected_coverage.add(1 - std::exp(-depth));
+            expected_light.add(scattered);
+        }
+    CAPTURE(coverage.mean());
+    CAPTURE(expected_coverage.mean());
+    CAPTURE(light.mean());
+    CAPTURE(expected_light.mean());
+    CHECK(coverage.agrees_with(expected_coverage.mean()));
+    CHECK(coverage.standard_error() < 0.01 * expected_coverage.mean());
+    CHECK(light.agrees_with(expected_light.mean()));
+    CHECK(light.standard_error() < 0.01 * expected_light.mean());
 }
 
 }  // namespace pluvia

@@ -24,7 +24,7 @@ struct IntensityPlanes {
 
 /// Rows of the EXR file that one band of pictures needs: its own and those that the mask's averages reach.
 struct Rows {
-    int begin, count;         // of the planes
+    int begin, count;  // of the planes
     int band_begin, band_count;
     int width;
     Color background;
@@ -151,17 +151,24 @@ public:
 private:
     float limit() const {
         switch (settings_.depth_encoding) {
-        case DepthEncoding::mm16: return mm16_limit;
-        case DepthEncoding::carla24: return carla24_limit;
-        case DepthEncoding::hri: return settings_.depth_max;
-        default: return kitti16_limit;
+            case DepthEncoding::mm16:
+                return mm16_limit;
+            case DepthEncoding::carla24:
+                return carla24_limit;
+            case DepthEncoding::hri:
+                return settings_.depth_max;
+            default:
+                return kitti16_limit;
         }
     }
     uint16_t encode(float metres) const {
         switch (settings_.depth_encoding) {
-        case DepthEncoding::mm16: return encode_mm16(metres);
-        case DepthEncoding::hri: return encode_hri(metres, settings_.depth_max);
-        default: return encode_kitti16(metres);
+            case DepthEncoding::mm16:
+                return encode_mm16(metres);
+            case DepthEncoding::hri:
+                return encode_hri(metres, settings_.depth_max);
+            default:
+                return encode_kitti16(metres);
         }
     }
 

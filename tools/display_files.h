@@ -15,14 +15,14 @@ struct DisplaySettings {
     std::string view = "srgb";
     double ev100 = 0;
     DepthEncoding depth_encoding = DepthEncoding::kitti16;
-    float depth_max = 100;    // metres, of the encoding hri
-    bool paper = false;       // the mask of the paper's composition: texture alpha of 0.01 or more
-    PngText text;             // stored in every file
+    float depth_max = 100;  // metres, of the encoding hri
+    bool paper = false;     // the mask of the paper's composition: texture alpha of 0.01 or more
+    PngText text;           // stored in every file
 };
 
 struct DisplayReport {
-    int64_t depths_beyond = 0;         // finite depths that the encoding cannot hold
-    std::vector<double> mask_shares;   // per intensity: share of pixels in the rain mask
+    int64_t depths_beyond = 0;        // finite depths that the encoding cannot hold
+    std::vector<double> mask_shares;  // per intensity: share of pixels in the rain mask
 };
 
 /// Change of a displayed channel that the mask calls rain: 3 of 255 levels.

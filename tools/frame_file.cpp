@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-
 namespace pluvia {
 namespace {
 
@@ -44,7 +43,9 @@ std::array<float, 16> camera_to_ndc(const View& view) {
     return m;
 }
 
-std::vector<float> floats(Vec3d v) { return {float(v.x), float(v.y), float(v.z)}; }
+std::vector<float> floats(Vec3d v) {
+    return {float(v.x), float(v.y), float(v.z)};
+}
 
 }  // namespace
 
@@ -56,8 +57,7 @@ ExrAttributes exr_attributes(const FrameHeader& h) {
             {"pluvia:camera", h.camera_name},
             {"pluvia:settings", h.options.dump()},
             {"pluvia:units", "radiance: cd/m2, linear Rec.709; Z, distance: metres"},
-            {"pluvia:intensities_mm_per_h",
-             std::vector<float>(h.intensities.begin(), h.intensities.end())},
+            {"pluvia:intensities_mm_per_h", std::vector<float>(h.intensities.begin(), h.intensities.end())},
             {"pluvia:camera_velocity", floats(h.view.velocity)},
             {"pluvia:shutter_open", h.view.shutter_open},
             {"expTime", h.view.exposure_time},
@@ -90,21 +90,21 @@ nlohmann::ordered_json frame_json(const FrameHeader& h, double ev100, const Coun
     j["settings"] = h.options;
     const Vec3d p = v.position + h.scene_origin;
     const auto row = [](Vec3d a, double t) { return nlohmann::ordered_json{a.x, a.y, a.z, t}; };
-    j["camera"] = {
-        {"name", h.camera_name},
-        {"world_from_camera",
-         {row({v.right.x, v.up.x, v.back.x}, p.x), row({v.right.y, v.up.y, v.back.y}, p.y),
-          row({v.right.z, v.up.z, v.back.z}, p.z), {0, 0, 0, 1}}},
-        {"axes", "x right, y up, looks along -z"},
-        {"intrinsics", {{v.focal_pixels, 0, v.width / 2.0}, {0, v.focal_pixels, v.height / 2.0}, {0, 0, 1}}},
-        {"shutter_open_s", v.shutter_open},
-        {"exposure_time_s", v.exposure_time}};
+    j["camera"] = {{"name", h.camera_name},
+                   {"world_from_camera",
+                    {row({v.right.x, v.up.x, v.back.x}, p.x),
+                     row({v.right.y, v.up.y, v.back.y}, p.y),
+                     row({v.right.z, v.up.z, v.back.z}, p.z),
+                     {0, 0, 0, 1}}},
+                   {"axes", "x right, y up, looks along -z"},
+                   {"intrinsics", {{v.focal_pixels, 0, v.width / 2.0}, {0, v.focal_pixels, v.height / 2.0}, {0, 0, 1}}},
+                   {"shutter_open_s", v.shutter_open},
+                   {"exposure_time_s", v.exposure_time}};
     j["exposure_ev100"] = ev100;
     j["units"] = {{"radiance", "cd/m2, linear Rec.709"}, {"depth", "metres"}};
     for (size_t i = 0; i < h.intensities.size(); ++i)
         j["layers"][intensity_label(h.intensities[i])] = {{"intensity_mm_per_h", h.intensities[i]}};
-    for (size_t i = 0; i < feature_names.size(); ++i)
-        j["feature_calls"][feature_names[i]] = counters.calls[i];
+    for (size_t i = 0; i < feature_names.size(); ++i) j["feature_calls"][feature_names[i]] = counters.calls[i];
     j["invalid_samples"] = counters.invalid_samples;
     return j;
 }

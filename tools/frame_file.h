@@ -2,8 +2,8 @@
 // Neither holds a time, a host, a path or a number of threads: the same frame has the same bytes everywhere.
 #pragma once
 
-#include "renderer/image/exr.h"
 #include "renderer/image/exposure.h"
+#include "renderer/image/exr.h"
 #include "tools/render_options.h"
 
 namespace pluvia {

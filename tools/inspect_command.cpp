@@ -75,8 +75,10 @@ Json inspect_exr(const std::string& path) {
     for (const ExrChannel& channel : exr.channels()) j["channels"].push_back(channel.name);
     for (const auto& [key, value] : exr.attributes()) {
         const bool is_object = key == "pluvia:settings" && std::holds_alternative<std::string>(value);
-        if (is_object) j["attributes"][key] = Json::parse(std::get<std::string>(value), nullptr, false);
-        else std::visit([&](const auto& v) { j["attributes"][key] = v; }, value);
+        if (is_object)
+            j["attributes"][key] = Json::parse(std::get<std::string>(value), nullptr, false);
+        else
+            std::visit([&](const auto& v) { j["attributes"][key] = v; }, value);
     }
     return j;
 }
@@ -97,7 +99,8 @@ void print(const Json& j, const std::string& indent = "") {
             std::cout << indent << key << ":\n";
             print(value, indent + "  ");
         } else {
-            std::cout << fmt::format("{}{:<26}{}\n", indent, key, value.is_string() ? value.get<std::string>() : value.dump());
+            std::cout << fmt::format("{}{:<26}{}\n", indent, key,
+                                     value.is_string() ? value.get<std::string>() : value.dump());
         }
     }
 }
@@ -109,17 +112,21 @@ void inspect_command(const InspectOptions& options) {
                                                                        : inspect_scene(options.input);
     for (const double intensity : options.rain) j["rain"][fmt::format("{:g}", intensity)] = drop_statistics(intensity);
     if (j.empty()) throw usage_error("inspect", "has nothing to look at (expected a scene, an .exr file or --rain)");
-    if (options.json) std::cout << j.dump(2) << "\n";
-    else print(j);
+    if (options.json)
+        std::cout << j.dump(2) << "\n";
+    else
+        print(j);
 }
 
 }  // namespace
 
 void add_inspect_command(CLI::App& app) {
-    auto* command = app.add_subcommand("inspect", "what a scene contains and requires, the channels of an EXR, rain in numbers");
+    auto* command =
+        app.add_subcommand("inspect", "what a scene contains and requires, the channels of an EXR, rain in numbers");
     auto options = std::make_shared<InspectOptions>();
     command->add_option("input", options->input, "scene (.glb, .gltf) or picture (.exr)");
-    command->add_option("--rain", options->rain, "print the drop statistics of these intensities, mm/h")->delimiter(',');
+    command->add_option("--rain", options->rain, "print the drop statistics of these intensities, mm/h")
+        ->delimiter(',');
     command->add_flag("--json", options->json, "print as JSON");
     command->footer("Example:\n  pluvia inspect lane.glb\n  pluvia inspect --rain 10,100");
     command->callback([options] { inspect_command(*options); });

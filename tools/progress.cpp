@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
 #include <csignal>
 #include <cstdio>
-#include <unistd.h>
 
 namespace pluvia {
 namespace {
@@ -15,7 +15,8 @@ volatile std::sig_atomic_t interrupted = 0;
 
 std::string clock_text(double seconds) {
     const long s = std::lround(seconds);
-    return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60) : fmt::format("{}:{:02}", s / 60, s % 60);
+    return s >= 3600 ? fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60)
+                     : fmt::format("{}:{:02}", s / 60, s % 60);
 }
 
 }  // namespace
@@ -53,7 +54,8 @@ bool Progress::update(double done) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = done > 0 ? elapsed / done * (1 - done) : 0;
     if (style_ == Style::json) {
-        fmt::print(stderr, "{{\"progress\": {:.4f}, \"elapsed_s\": {:.1f}, \"left_s\": {:.1f}}}\n", done, elapsed, left);
+        fmt::print(stderr, "{{\"progress\": {:.4f}, \"elapsed_s\": {:.1f}, \"left_s\": {:.1f}}}\n", done, elapsed,
+                   left);
     } else if (terminal_) {
         constexpr int width = 40;
         const int filled = int(done * width);
@@ -62,7 +64,8 @@ bool Progress::update(double done) {
         std::fflush(stderr);
         drawn_ = true;
     } else {
-        fmt::print(stderr, "{}: {:.0f} %, {} elapsed, {} left\n", title_, 100 * done, clock_text(elapsed), clock_text(left));
+        fmt::print(stderr, "{}: {:.0f} %, {} elapsed, {} left\n", title_, 100 * done, clock_text(elapsed),
+                   clock_text(left));
     }
     return true;
 }

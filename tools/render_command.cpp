@@ -23,7 +23,8 @@ void prepare_folder(const RenderOptions& options) {
     if (!options.overwrite && fs::exists(options.output + "/frame.json", error))
         throw usage_error(options.output, "holds a finished frame already (expected an empty folder, or --overwrite)");
     fs::create_directories(options.output, error);
-    if (error) throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
+    if (error)
+        throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
     fs::remove(options.output + "/frame.json", error);  // it names a finished frame, and there is none until the end
 }
 
@@ -51,7 +52,8 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
         std::cout << fmt::format("  {:g} mm/h: rain mask covers {:.2f} % of the picture\n", intensities[i],
                                  100 * display.mask_shares[i]);
     if (display.depths_beyond > 0)
-        std::cout << fmt::format("depth.png: {} depths lie beyond the encoding and are 0 there\n", display.depths_beyond);
+        std::cout << fmt::format("depth.png: {} depths lie beyond the encoding and are 0 there\n",
+                                 display.depths_beyond);
 }
 
 void render_command(const RenderOptions& options) {
@@ -70,20 +72,27 @@ void render_command(const RenderOptions& options) {
     set_thread_count(options.threads);
 
     const Scene scene = load_gltf(options.scene);
-    for (const std::string& warning : scene.warnings) std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
+    for (const std::string& warning : scene.warnings)
+        std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     const Camera camera = find_camera(scene, options.camera);
     prepare_folder(options);
 
-    FrameHeader header{scene.name, content_hash(scene), scene.origin, camera.name, make_view(camera, camera_options),
-                       to_json(options), settings.rain.intensities_mm_per_h};
+    FrameHeader header{scene.name,
+                       content_hash(scene),
+                       scene.origin,
+                       camera.name,
+                       make_view(camera, camera_options),
+                       to_json(options),
+                       settings.rain.intensities_mm_per_h};
     catch_interrupts();
     const std::string exr = options.output + "/frame.exr";
     FrameWriter writer(exr, header);
     RenderReport result;
     {
         Progress progress(progress_style, "rendering");
-        result = render(scene, environment, header.view, settings, [&](const Band& band) { writer.write(band); },
-                        [&](double done) { return progress.update(done); });
+        result = render(
+            scene, environment, header.view, settings, [&](const Band& band) { writer.write(band); },
+            [&](double done) { return progress.update(done); });
     }
     writer.finish();
 

@@ -32,7 +32,7 @@ struct RenderOptions {
     double hour = 12;
     std::string date = "2024-09-22";
     double latitude = 35.7, longitude = 139.7, utc_offset = 9;  // Tokyo
-    std::optional<double> sun_elevation, sun_azimuth;            // degrees
+    std::optional<double> sun_elevation, sun_azimuth;           // degrees
     std::string weather;
     double turbidity = 3;
     std::string environment;

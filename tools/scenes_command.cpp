@@ -19,21 +19,25 @@ struct ScenesOptions {
 
 void scenes_command(const ScenesOptions& options) {
     if (options.list) {
-        for (const Builder& builder : builders()) std::cout << fmt::format("{:<16}{}\n", builder.name, builder.description);
+        for (const Builder& builder : builders())
+            std::cout << fmt::format("{:<16}{}\n", builder.name, builder.description);
         return;
     }
     std::vector<const Builder*> chosen;
     for (const std::string& name : options.names) {
-        const auto found = std::find_if(builders().begin(), builders().end(), [&](const Builder& b) { return b.name == name; });
+        const auto found =
+            std::find_if(builders().begin(), builders().end(), [&](const Builder& b) { return b.name == name; });
         if (found == builders().end())
-            throw usage_error("scenes", fmt::format("no such scene (got \"{}\"; pluvia scenes --list names them)", name));
+            throw usage_error("scenes",
+                              fmt::format("no such scene (got \"{}\"; pluvia scenes --list names them)", name));
         chosen.push_back(&*found);
     }
     if (options.names.empty())
         for (const Builder& builder : builders()) chosen.push_back(&builder);
     std::error_code error;
     std::filesystem::create_directories(options.output, error);
-    if (error) throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
+    if (error)
+        throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
     for (const Builder* builder : chosen) {
         const std::string path = fmt::format("{}/{}.glb", options.output, builder->name);
         save_glb(builder->build(), path);

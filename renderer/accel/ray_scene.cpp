@@ -46,9 +46,8 @@ void reject_transparent(const RTCFilterFunctionNArguments* args) {
     const auto& context = *static_cast<const QueryContext*>(args->context);
     const auto& tag = *static_cast<const GeometryTag*>(args->geometryUserPtr);
     RTCHitN* hit = args->hit;
-    const int instance = tag.instance >= 0
-                             ? tag.instance
-                             : (*context.instance_of_geometry)[RTCHitN_instID(hit, args->N, 0, 0)];
+    const int instance =
+        tag.instance >= 0 ? tag.instance : (*context.instance_of_geometry)[RTCHitN_instID(hit, args->N, 0, 0)];
     const SurfacePoint point{instance, int(RTCHitN_primID(hit, args->N, 0)), RTCHitN_u(hit, args->N, 0),
                              RTCHitN_v(hit, args->N, 0)};
     context.counters->count(Feature::alpha);
@@ -88,8 +87,8 @@ QueryContext make_context(OpacityTest opacity, Counters& counters, const std::ve
 struct RayScene::Embree {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    std::vector<RTCScene> mesh_scenes;            // of meshes placed by instances, null for the others
-    std::vector<int> instance_of_geometry;        // Scene instance of each geometry of `top`
+    std::vector<RTCScene> mesh_scenes;      // of meshes placed by instances, null for the others
+    std::vector<int> instance_of_geometry;  // Scene instance of each geometry of `top`
     std::vector<std::unique_ptr<GeometryTag>> tags;
 
     ~Embree() {

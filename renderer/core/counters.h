@@ -8,13 +8,28 @@
 namespace pluvia {
 
 enum class Feature {
-    camera_path, texture, normal_map, vertex_color, alpha, emissive_surface, pane, local_light, distant_light,
-    environment, lens, streak_test, streak_hit, streak_path, paper_streak, count,
+    camera_path,
+    texture,
+    normal_map,
+    vertex_color,
+    alpha,
+    emissive_surface,
+    pane,
+    local_light,
+    distant_light,
+    environment,
+    lens,
+    streak_test,
+    streak_hit,
+    streak_path,
+    paper_streak,
+    count,
 };
 
 constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
-    "camera_path", "texture", "normal_map", "vertex_color", "alpha", "emissive_surface", "pane", "local_light",
-    "distant_light", "environment", "lens", "streak_test", "streak_hit", "streak_path", "paper_streak"};
+    "camera_path", "texture",     "normal_map",    "vertex_color", "alpha", "emissive_surface",
+    "pane",        "local_light", "distant_light", "environment",  "lens",  "streak_test",
+    "streak_hit",  "streak_path", "paper_streak"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

@@ -10,12 +10,12 @@ namespace pluvia {
 /// Exit codes of the program; scripts rely on them.
 enum class ExitCode {
     ok = 0,
-    check_failed = 1,     // a comparison or check found a difference
-    usage = 2,            // command line or configuration
-    input = 3,            // a file is unreadable or unsupported
-    render_failed = 4,    // invalid samples, out of memory, output not writable
-    some_failed = 5,      // finished, but some items failed
-    stopped_early = 75,   // interrupted; run again to finish
+    check_failed = 1,    // a comparison or check found a difference
+    usage = 2,           // command line or configuration
+    input = 3,           // a file is unreadable or unsupported
+    render_failed = 4,   // invalid samples, out of memory, output not writable
+    some_failed = 5,     // finished, but some items failed
+    stopped_early = 75,  // interrupted; run again to finish
 };
 
 class Error : public std::runtime_error {
@@ -30,7 +30,11 @@ private:
     ExitCode code_;
 };
 
-inline Error usage_error(const std::string& where, const std::string& what) { return {ExitCode::usage, where, what}; }
-inline Error input_error(const std::string& where, const std::string& what) { return {ExitCode::input, where, what}; }
+inline Error usage_error(const std::string& where, const std::string& what) {
+    return {ExitCode::usage, where, what};
+}
+inline Error input_error(const std::string& where, const std::string& what) {
+    return {ExitCode::input, where, what};
+}
 
 }  // namespace pluvia

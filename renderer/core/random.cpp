@@ -36,7 +36,9 @@ constexpr uint32_t pascal(uint32_t v) {
     return v;
 }
 
-constexpr float unit_from_u32(uint32_t v) { return float(v >> 8) * 0x1p-24f; }
+constexpr float unit_from_u32(uint32_t v) {
+    return float(v >> 8) * 0x1p-24f;
+}
 
 }  // namespace
 

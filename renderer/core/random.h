@@ -26,15 +26,29 @@ constexpr uint64_t hash_key(uint64_t first, Values... rest) {
 }
 
 /// Uniform in [0, 1) from the top 24 bits, so that float rounding cannot reach 1.
-constexpr float unit_float(uint64_t bits) { return float(bits >> 40) * 0x1p-24f; }
+constexpr float unit_float(uint64_t bits) {
+    return float(bits >> 40) * 0x1p-24f;
+}
 /// Uniform in [0, 1) from the top 53 bits.
-constexpr double unit_double(uint64_t bits) { return double(bits >> 11) * 0x1p-53; }
+constexpr double unit_double(uint64_t bits) {
+    return double(bits >> 11) * 0x1p-53;
+}
 
 /// What a random number decides. Each belongs to a domain of its own, so that a feature that starts or stops asking
 /// shifts no other feature's numbers.
 enum class Draw : uint32_t {
-    pixel, lens, opacity, lobe, bsdf, light_choice, light_point, sky_choice, sky_point, roulette,
-    streak_choice, streak_phase,
+    pixel,
+    lens,
+    opacity,
+    lobe,
+    bsdf,
+    light_choice,
+    light_point,
+    sky_choice,
+    sky_point,
+    roulette,
+    streak_choice,
+    streak_phase,
 };
 
 /// The numbers of one camera sample: low-discrepancy over the samples of a pixel, independent between pixels and draws.

@@ -9,7 +9,7 @@
 namespace pluvia {
 
 struct Ray {
-    Vec3 origin, direction;                               // direction is of unit length
+    Vec3 origin, direction;                                // direction is of unit length
     float t_max = std::numeric_limits<float>::infinity();  // metres
 
     Vec3 at(float t) const { return origin + direction * t; }

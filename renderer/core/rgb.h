@@ -26,13 +26,23 @@ struct Rgb {
 };
 
 /// Luminance Y of linear Rec.709 (ITU-R BT.709-6, table 3); in cd/m2 for radiance in the units of this project.
-constexpr float luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
+constexpr float luminance(Rgb c) {
+    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+}
 
-constexpr float max_component(Rgb c) { return std::max(c.r, std::max(c.g, c.b)); }
-constexpr bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
-inline bool is_finite(Rgb c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+constexpr float max_component(Rgb c) {
+    return std::max(c.r, std::max(c.g, c.b));
+}
+constexpr bool is_black(Rgb c) {
+    return c.r == 0 && c.g == 0 && c.b == 0;
+}
+inline bool is_finite(Rgb c) {
+    return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b);
+}
 
 /// a where t = 0, b where t = 1.
-constexpr Rgb mix(Rgb a, Rgb b, float t) { return a * (1 - t) + b * t; }
+constexpr Rgb mix(Rgb a, Rgb b, float t) {
+    return a * (1 - t) + b * t;
+}
 
 }  // namespace pluvia

@@ -1,5 +1,5 @@
-// Maps from the unit square to the shapes that light transport samples, each beside its pdf, and tabulated distributions.
-// u is uniform in [0, 1)^2; pdfs are with respect to solid angle where a direction is returned.
+// Maps from the unit square to the shapes that light transport samples, each beside its pdf, and tabulated
+// distributions. u is uniform in [0, 1)^2; pdfs are with respect to solid angle where a direction is returned.
 #pragma once
 
 #include "renderer/core/units.h"
@@ -33,7 +33,9 @@ inline Vec3 sample_cosine_hemisphere(Vec2 u) {
     const Vec2 d = sample_disk(u);
     return {d.x, d.y, std::sqrt(std::max(0.0f, 1 - d.x * d.x - d.y * d.y))};
 }
-inline float pdf_cosine_hemisphere(float cos_theta) { return std::max(0.0f, cos_theta) / pi; }
+inline float pdf_cosine_hemisphere(float cos_theta) {
+    return std::max(0.0f, cos_theta) / pi;
+}
 
 /// Uniform on the unit sphere.
 inline Vec3 sample_sphere(Vec2 u) {
@@ -48,7 +50,9 @@ inline Vec3 sample_cone(Vec2 u, float one_minus_cos) {
     const float h = u.x * one_minus_cos, r = std::sqrt(std::max(0.0f, h * (2 - h)));
     return {r * std::cos(2 * pi * u.y), r * std::sin(2 * pi * u.y), 1 - h};
 }
-inline float pdf_cone(float one_minus_cos) { return 1 / (2 * pi * one_minus_cos); }
+inline float pdf_cone(float one_minus_cos) {
+    return 1 / (2 * pi * one_minus_cos);
+}
 
 /// Barycentric weights of the second and third corner, uniform over a triangle's area.
 /// Source: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".

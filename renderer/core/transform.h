@@ -27,8 +27,12 @@ struct Transform {
     friend constexpr bool operator==(const Transform&, const Transform&) = default;
 };
 
-constexpr Transform translate(Vec3d offset) { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, offset}; }
-constexpr Transform scale(Vec3d s) { return {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}}; }
+constexpr Transform translate(Vec3d offset) {
+    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, offset};
+}
+constexpr Transform scale(Vec3d s) {
+    return {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}};
+}
 
 /// Rotation by the quaternion (x, y, z, w), which is normalised first.
 inline Transform rotate(double x, double y, double z, double w) {

@@ -9,15 +9,15 @@
 namespace pluvia {
 
 struct View {
-    int width = 1024, height = 512;                // pixels
-    double focal_pixels = 1000;                    // image-plane distance in pixels, the same in x and y
-    Vec3d position;                                // world, metres
+    int width = 1024, height = 512;                             // pixels
+    double focal_pixels = 1000;                                 // image-plane distance in pixels, the same in x and y
+    Vec3d position;                                             // world, metres
     Vec3d right = {1, 0, 0}, up = {0, 1, 0}, back = {0, 0, 1};  // camera axes in the world, orthonormal
-    Vec3d velocity;                                // of the camera, m/s
-    double lens_radius = 0;                        // metres; 0 = pinhole
-    double focus_distance = 10;                    // view depth in focus, metres; unused by a pinhole
-    double shutter_open = 0;                       // seconds of the sequence
-    double exposure_time = 1.0 / 60;               // seconds
+    Vec3d velocity;                                             // of the camera, m/s
+    double lens_radius = 0;                                     // metres; 0 = pinhole
+    double focus_distance = 10;                                 // view depth in focus, metres; unused by a pinhole
+    double shutter_open = 0;                                    // seconds of the sequence
+    double exposure_time = 1.0 / 60;                            // seconds
 
     /// Camera coordinates of a point of the world: x right, y up, z = view depth (positive in front of the camera).
     Vec3d view_from_world(Vec3d p) const {

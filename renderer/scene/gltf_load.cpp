@@ -67,7 +67,8 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
     }
     if (indices.size() % 3 != 0)
         throw input_error(where, fmt::format("is not made of whole triangles (got {} indices)", indices.size()));
-    for (size_t i = 0; i < indices.size(); i += 3) mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    for (size_t i = 0; i < indices.size(); i += 3)
+        mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     if (primitive.material < -1 || primitive.material >= int(model.materials.size()))
         throw input_error(where, fmt::format("material does not exist (got {}, expected below {})", primitive.material,
                                              model.materials.size()));
@@ -82,25 +83,30 @@ constexpr int max_depth = 1000;
 class NodeWalk {
 public:
     NodeWalk(const tinygltf::Model& model, const std::string& where, Scene& scene)
-        : model_(model), where_(where), scene_(scene), first_part_(model.meshes.size(), -1), visited_(model.nodes.size()) {}
+        : model_(model),
+          where_(where),
+          scene_(scene),
+          first_part_(model.meshes.size(), -1),
+          visited_(model.nodes.size()) {}
 
     /// parent_path: empty for a root. depth: number of nodes above.
     void walk(int index, const Transform& scene_from_parent, const std::string& parent_path, int depth = 0) {
         if (index < 0 || index >= int(model_.nodes.size()))
-            throw input_error(where_, fmt::format("node does not exist (got {}, expected below {})", index,
-                                                  model_.nodes.size()));
+            throw input_error(
+                where_, fmt::format("node does not exist (got {}, expected below {})", index, model_.nodes.size()));
         if (visited_[index])
             throw input_error(where_, fmt::format("node {} is reached twice (expected a tree)", index));
         if (depth >= max_depth)
-            throw input_error(where_, fmt::format("node {} lies too deep in the tree (expected at most {} levels)", index,
-                                                  max_depth));
+            throw input_error(where_, fmt::format("node {} lies too deep in the tree (expected at most {} levels)",
+                                                  index, max_depth));
         visited_[index] = true;
         const tinygltf::Node& node = model_.nodes[index];
         const std::string name = node.name.empty() ? fmt::format("node_{}", index) : node.name;
         const std::string path = parent_path.empty() ? name : parent_path + "/" + name;
         const Transform scene_from_node = scene_from_parent * transform_of(node);
         if (!is_finite(scene_from_node.translation) || !std::isfinite(scene_from_node.determinant()))
-            throw input_error(fmt::format("{}: node \"{}\"", where_, path), "its transform is not finite (expected numbers)");
+            throw input_error(fmt::format("{}: node \"{}\"", where_, path),
+                              "its transform is not finite (expected numbers)");
         if (node.mesh != -1) add_mesh(node, path, scene_from_node);
         if (node.camera != -1) add_camera(node, name, scene_from_node);
         if (node.extensions.count("KHR_lights_punctual")) add_light(node, name, scene_from_node);
@@ -110,8 +116,10 @@ public:
 private:
     void add_mesh(const tinygltf::Node& node, const std::string& path, const Transform& scene_from_node) {
         if (node.mesh < 0 || node.mesh >= int(model_.meshes.size()))
-            throw input_error(fmt::format("{}: node \"{}\"", where_, path), fmt::format("mesh does not exist (got {}, "
-                              "expected below {})", node.mesh, model_.meshes.size()));
+            throw input_error(fmt::format("{}: node \"{}\"", where_, path),
+                              fmt::format("mesh does not exist (got {}, "
+                                          "expected below {})",
+                                          node.mesh, model_.meshes.size()));
         if (node.skin >= 0) scene_.warnings.push_back(fmt::format("node \"{}\": its skin is not supported", path));
         const tinygltf::Mesh& mesh = model_.meshes[node.mesh];
         if (first_part_[node.mesh] < 0) read_mesh(mesh, node.mesh);
@@ -125,8 +133,10 @@ private:
             const tinygltf::Primitive& primitive = mesh.primitives[k];
             const std::string primitive_where = fmt::format("{}: mesh \"{}\" primitive {}", where_, mesh.name, k);
             if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
-                scene_.warnings.push_back(fmt::format("mesh \"{}\": primitive {} is not made of triangles (mode {}) and "
-                                                      "is left out", mesh.name, k, primitive.mode));
+                scene_.warnings.push_back(
+                    fmt::format("mesh \"{}\": primitive {} is not made of triangles (mode {}) and "
+                                "is left out",
+                                mesh.name, k, primitive.mode));
                 continue;
             }
             if (!primitive.targets.empty())
@@ -151,7 +161,8 @@ private:
         const double fov = source.perspective.yfov;
         if (!(fov > 0 && fov < std::numbers::pi))
             throw input_error(node_where, fmt::format("its camera's yfov is out of range (got {}, expected above 0 and "
-                                                      "below pi)", fov));
+                                                      "below pi)",
+                                                      fov));
         scene_.cameras.push_back({source.name.empty() ? name : source.name, scene_from_node, fov});
     }
 
@@ -171,21 +182,28 @@ private:
         light.intensity = color * float(source.intensity);
         if (!(is_finite(light.intensity) && std::min({light.intensity.r, light.intensity.g, light.intensity.b}) >= 0))
             throw input_error(node_where, fmt::format("its light's intensity is out of range (got {} times {} {} {}, "
-                              "expected 0 or more)", source.intensity, color.r, color.g, color.b));
+                                                      "expected 0 or more)",
+                                                      source.intensity, color.r, color.g, color.b));
         light.position = scene_from_node.translation;
         light.direction = Vec3(normalize(scene_from_node.vector({0, 0, -1})));
         light.inner_cone_angle = float(source.spot.innerConeAngle);
         light.outer_cone_angle = float(source.spot.outerConeAngle);
-        if (source.type == "directional") light.kind = PunctualLight::Kind::directional;
-        else if (source.type == "spot") light.kind = PunctualLight::Kind::spot;
+        if (source.type == "directional")
+            light.kind = PunctualLight::Kind::directional;
+        else if (source.type == "spot")
+            light.kind = PunctualLight::Kind::spot;
         else if (source.type != "point")
-            throw input_error(node_where, fmt::format("its light has an unknown type (got \"{}\", expected point, spot or "
-                                                      "directional)", source.type));
+            throw input_error(node_where,
+                              fmt::format("its light has an unknown type (got \"{}\", expected point, spot or "
+                                          "directional)",
+                                          source.type));
         if (light.kind != PunctualLight::Kind::point && !is_finite(light.direction))
             throw input_error(node_where, "its transform leaves the light no direction (got a scale of 0)");
         if (source.range > 0)
-            scene_.warnings.push_back(fmt::format("light \"{}\": its range is ignored, light falls off with distance "
-                                                  "squared", light.name));
+            scene_.warnings.push_back(
+                fmt::format("light \"{}\": its range is ignored, light falls off with distance "
+                            "squared",
+                            light.name));
         scene_.lights.push_back(light);
     }
 
@@ -209,7 +227,8 @@ Scene load_gltf(const std::string& path) {
     if (model.scenes.empty()) throw input_error(path, "has no scene");
     const int chosen = model.defaultScene == -1 ? 0 : model.defaultScene;
     if (chosen < 0 || chosen >= int(model.scenes.size()))
-        throw input_error(path, fmt::format("scene does not exist (got {}, expected below {})", chosen, model.scenes.size()));
+        throw input_error(path,
+                          fmt::format("scene does not exist (got {}, expected below {})", chosen, model.scenes.size()));
     NodeWalk walk(model, path, scene);
     for (const int node : model.scenes[chosen].nodes) walk.walk(node, Transform(), "");
     check(scene, path);

@@ -53,8 +53,9 @@ public:
         const double ior = extension_number(source, "KHR_materials_ior", "ior", 1.5);
         // 0 stands for a surface that reflects everything (KHR_materials_ior, for converted older materials).
         m.ior = in_range(source, "ior", ior == 0 ? max_ior : ior, 1, max_ior);
-        m.transmission = in_range(source, "transmissionFactor",
-                                  extension_number(source, "KHR_materials_transmission", "transmissionFactor", 0), 0, 1);
+        m.transmission =
+            in_range(source, "transmissionFactor",
+                     extension_number(source, "KHR_materials_transmission", "transmissionFactor", 0), 0, 1);
         m.alpha_mode = source.alphaMode == "MASK"    ? AlphaMode::mask
                        : source.alphaMode == "BLEND" ? AlphaMode::blend
                                                      : AlphaMode::opaque;
@@ -75,8 +76,8 @@ private:
     float in_range(const tinygltf::Material& material, const char* name, double value, double lower, double upper) {
         const double inside = std::clamp(value, lower, upper);
         if (inside != value)
-            warn(material, fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name, value,
-                                       lower, upper, inside));
+            warn(material, fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name,
+                                       value, lower, upper, inside));
         return float(inside);
     }
     float emission(const tinygltf::Material& material, double luminance) {
@@ -91,7 +92,8 @@ private:
                               fmt::format("its {} texture does not exist (got {}, expected below {})", slot, info.index,
                                           model_.textures.size()));
         if (info.texCoord != 0)
-            warn(material, fmt::format("its {} texture uses TEXCOORD_{}, TEXCOORD_0 is taken instead", slot, info.texCoord));
+            warn(material,
+                 fmt::format("its {} texture uses TEXCOORD_{}, TEXCOORD_0 is taken instead", slot, info.texCoord));
         if (info.extensions.count("KHR_texture_transform"))
             warn(material, fmt::format("KHR_texture_transform of its {} texture is not supported", slot));
         return info.index;
@@ -141,8 +143,9 @@ void read_materials(const tinygltf::Model& model, const std::string& where, Scen
         else if (!image.image.empty())
             scene.images.push_back(decode_rgba8(std::as_bytes(std::span(image.image)), image_where));
         else
-            throw input_error(image_where, fmt::format("its file cannot be read (got \"{}\", expected one beside the scene)",
-                                                       image.uri));
+            throw input_error(
+                image_where,
+                fmt::format("its file cannot be read (got \"{}\", expected one beside the scene)", image.uri));
     }
     for (size_t i = 0; i < model.textures.size(); ++i)
         scene.textures.push_back(read_texture(model, model.textures[i], int(i), where, scene));

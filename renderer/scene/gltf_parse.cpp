@@ -53,7 +53,8 @@ std::string_view json_chunk(std::string_view file, const std::string& path) {
     };
     if (!file.starts_with("glTF"))
         throw input_error(path, "is not a binary glTF file (expected \"glTF\" at its beginning)");
-    if (file.size() < 20) throw input_error(path, fmt::format("is cut short (got {} bytes, expected at least 20)", file.size()));
+    if (file.size() < 20)
+        throw input_error(path, fmt::format("is cut short (got {} bytes, expected at least 20)", file.size()));
     const uint32_t length = word(8), json_length = word(12);
     if (word(4) != 2) throw input_error(path, fmt::format("has an unknown version (got {}, expected 2)", word(4)));
     if (length > file.size())
@@ -70,10 +71,14 @@ void check_nesting(std::string_view json, const std::string& path) {
     bool in_string = false;
     for (size_t i = 0; i < json.size(); ++i) {
         const char c = json[i];
-        if (in_string && c == '\\') ++i;
-        else if (c == '"') in_string = !in_string;
-        else if (!in_string && (c == '{' || c == '[')) ++depth;
-        else if (!in_string && (c == '}' || c == ']')) --depth;
+        if (in_string && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '{' || c == '['))
+            ++depth;
+        else if (!in_string && (c == '}' || c == ']'))
+            --depth;
         if (depth > max_nesting)
             throw input_error(path, fmt::format("nests values too deeply (expected at most {} levels)", max_nesting));
     }
@@ -83,8 +88,8 @@ tinygltf::TinyGLTF make_parser() {
     tinygltf::TinyGLTF parser;
     // Pictures stay encoded; they are decoded with the others in gltf_material.cpp.
     parser.SetImageLoader(
-        [](tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes, int size,
-           void*) {
+        [](tinygltf::Image* image, const int, std::string*, std::string*, int, int, const unsigned char* bytes,
+           int size, void*) {
             if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
             return true;
         },
@@ -94,8 +99,8 @@ tinygltf::TinyGLTF make_parser() {
         std::error_code ignored;
         return file.starts_with('/') && std::filesystem::is_regular_file(file, ignored);
     };
-    parser.SetFsCallbacks({exists_beside_scene, &tinygltf::ExpandFilePath, &tinygltf::ReadWholeFile,
-                           &tinygltf::WriteWholeFile, nullptr});
+    parser.SetFsCallbacks(
+        {exists_beside_scene, &tinygltf::ExpandFilePath, &tinygltf::ReadWholeFile, &tinygltf::WriteWholeFile, nullptr});
     return parser;
 }
 
@@ -115,10 +120,11 @@ tinygltf::Model parse_gltf(const std::string& path, std::vector<std::string>& wa
     std::string error, ignored;
     bool ok = false;
     try {
-        ok = is_binary ? parser.LoadBinaryFromMemory(&model, &error, &ignored,
-                                                     reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                     uint32_t(bytes.size()), folder)
-                       : parser.LoadASCIIFromString(&model, &error, &ignored, bytes.data(), uint32_t(bytes.size()), folder);
+        ok = is_binary
+                 ? parser.LoadBinaryFromMemory(&model, &error, &ignored,
+                                               reinterpret_cast<const unsigned char*>(bytes.data()),
+                                               uint32_t(bytes.size()), folder)
+                 : parser.LoadASCIIFromString(&model, &error, &ignored, bytes.data(), uint32_t(bytes.size()), folder);
     } catch (const std::exception& e) {  // tinygltf's JSON library throws on some malformed files
         error = e.what();
     }
@@ -129,7 +135,7 @@ tinygltf::Model parse_gltf(const std::string& path, std::vector<std::string>& wa
     error.erase(error.find_last_not_of('\n') + 1);
     std::replace(error.begin(), error.end(), '\n', ' ');
     if (!ok) throw input_error(path, fmt::format("is not readable as glTF ({})", error));
-    if (!error.empty()) warnings.push_back(fmt::format("parts are not valid and left out ({})", error));
+    if (!error.empty()) warnings.push_back(fmt::format("parts of the file are not understood ({})", error));
     for (const std::string& used : model.extensionsUsed)
         if (!is_supported(used))
             warnings.push_back(fmt::format("extension {} is not supported and has no effect", used));

@@ -19,7 +19,9 @@
 namespace pluvia {
 namespace {
 
-std::vector<double> numbers(Rgb c) { return {c.r, c.g, c.b}; }
+std::vector<double> numbers(Rgb c) {
+    return {c.r, c.g, c.b};
+}
 
 std::vector<double> matrix_of(const Transform& t) {  // column-major
     return {t.column_x.x, t.column_x.y, t.column_x.z, 0, t.column_y.x,    t.column_y.y,    t.column_y.z,    0,
@@ -175,9 +177,9 @@ private:
         if (!uv.empty()) primitive.attributes["TEXCOORD_0"] = add_floats(uv, 2);
         if (!t.empty()) primitive.attributes["TANGENT"] = add_floats(t, 4);
         if (!c.empty()) primitive.attributes["COLOR_0"] = add_floats(c, mesh.alphas.empty() ? 3 : 4);
-        primitive.indices = add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                         TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
-                                         3 * mesh.triangles.size());
+        primitive.indices =
+            add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                         TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 3 * mesh.triangles.size());
         tinygltf::Mesh entry;
         entry.name = mesh.name;
         entry.primitives.push_back(primitive);
@@ -230,10 +232,10 @@ private:
         const ShadingBasis basis(-light.direction);  // lights shine along their node's -z
         tinygltf::Node node;
         node.name = light.name;
-        node.matrix = matrix_of(in_file(
-            {Vec3d(basis.tangent), Vec3d(basis.bitangent), Vec3d(basis.normal), light.position}));
-        node.extensions["KHR_lights_punctual"] = tinygltf::Value(
-            tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
+        node.matrix =
+            matrix_of(in_file({Vec3d(basis.tangent), Vec3d(basis.bitangent), Vec3d(basis.normal), light.position}));
+        node.extensions["KHR_lights_punctual"] =
+            tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
         use_extension("KHR_lights_punctual");
         add_node(node, -1);
     }
@@ -269,8 +271,8 @@ void save_glb(const Scene& scene, const std::string& path) {
     check(scene, path);
     for (const Mesh& mesh : scene.meshes)
         if (mesh.triangles.empty())
-            throw input_error(path, fmt::format("mesh \"{}\" cannot be written (got 0 triangles, expected at least 1)",
-                                                mesh.name));
+            throw input_error(
+                path, fmt::format("mesh \"{}\" cannot be written (got 0 triangles, expected at least 1)", mesh.name));
     const GlbWriter writer(scene);
     PendingFile file(path);
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&writer.model(), file.stream(), false, true);

@@ -9,8 +9,12 @@
 namespace pluvia {
 namespace {
 
-float safe_sin(float cosine) { return std::sqrt(std::max(0.0f, 1 - cosine * cosine)); }
-float safe_acos(float cosine) { return std::acos(std::clamp(cosine, -1.0f, 1.0f)); }
+float safe_sin(float cosine) {
+    return std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+}
+float safe_acos(float cosine) {
+    return std::acos(std::clamp(cosine, -1.0f, 1.0f));
+}
 
 /// cos(max(0, a - b)) from the sines and cosines of a and b.
 float cos_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
@@ -57,9 +61,9 @@ float split_cost(const LightBounds& b) {
     if (b.power == 0) return 0;
     const float spread = safe_acos(b.cos_spread), emission = safe_acos(b.cos_emission);
     const float whole = std::min(spread + emission, pi), sin_spread = safe_sin(b.cos_spread);
-    const float solid_angle = 2 * pi * (1 - b.cos_spread) +
-                              pi / 2 * (2 * whole * sin_spread - std::cos(spread - 2 * whole) -
-                                        2 * spread * sin_spread + b.cos_spread);
+    const float solid_angle =
+        2 * pi * (1 - b.cos_spread) +
+        pi / 2 * (2 * whole * sin_spread - std::cos(spread - 2 * whole) - 2 * spread * sin_spread + b.cos_spread);
     const Vec3 d = b.upper - b.lower;
     return b.power * solid_angle * (d.x * d.y + d.y * d.z + d.z * d.x);
 }
@@ -67,8 +71,14 @@ float split_cost(const LightBounds& b) {
 }  // namespace
 
 LightTree::Cluster LightTree::make_cluster(const LightBounds& b) {
-    return {b.centre(), b.axis, 0.25f * length_squared(b.upper - b.lower), b.cos_spread, safe_sin(b.cos_spread),
-            b.cos_emission, b.power, b.two_sided};
+    return {b.centre(),
+            b.axis,
+            0.25f * length_squared(b.upper - b.lower),
+            b.cos_spread,
+            safe_sin(b.cos_spread),
+            b.cos_emission,
+            b.power,
+            b.two_sided};
 }
 
 /// Upper estimate of the light that reaches the receiver from somewhere in the bounds; 0 only where none can.
@@ -154,9 +164,9 @@ LightBounds LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, i
     }
     int middle = (begin + end) / 2;
     if (best_axis >= 0) {
-        const auto first_above = std::stable_partition(
-            lights.begin() + begin, lights.begin() + end,
-            [&](const auto& light) { return bucket_of(light.second, best_axis) < best_bucket; });
+        const auto first_above =
+            std::stable_partition(lights.begin() + begin, lights.begin() + end,
+                                  [&](const auto& light) { return bucket_of(light.second, best_axis) < best_bucket; });
         middle = int(first_above - lights.begin());
     }
     const LightBounds first = build(lights, begin, middle, index);

@@ -14,11 +14,11 @@ namespace pluvia {
 /// Where a light is, how much it sends out and into which directions.
 struct LightBounds {
     Vec3 lower, upper;
-    Vec3 axis = {0, 0, 1};       // mean direction of emission
-    float cos_spread = -1;       // all normals lie within this cosine of the axis; -1 = everywhere
-    float cos_emission = 0;      // light leaves within this cosine of each normal: 0 = a half space, 1 = only along it
-    bool two_sided = false;      // emits to both sides of its normals
-    float power = 0;             // not negative; relative
+    Vec3 axis = {0, 0, 1};   // mean direction of emission
+    float cos_spread = -1;   // all normals lie within this cosine of the axis; -1 = everywhere
+    float cos_emission = 0;  // light leaves within this cosine of each normal: 0 = a half space, 1 = only along it
+    bool two_sided = false;  // emits to both sides of its normals
+    float power = 0;         // not negative; relative
 
     Vec3 centre() const { return (lower + upper) * 0.5f; }
 };

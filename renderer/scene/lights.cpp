@@ -130,7 +130,8 @@ float Lights::pdf_local(const Receiver& receiver, const SurfacePoint& point) con
     if (first < 0) return 0;
     const float probability = tree_.probability(receiver, int(punctual_.size()) + first + point.triangle);
     const auto corner = corners(*scene_, point.instance, point.triangle);
-    const Vec3d p = corner[0] * (1.0 - point.b1 - point.b2) + corner[1] * double(point.b1) + corner[2] * double(point.b2);
+    const Vec3d p =
+        corner[0] * (1.0 - point.b1 - point.b2) + corner[1] * double(point.b1) + corner[2] * double(point.b2);
     const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
     const float distance_squared = length_squared(to_light);
     const float projected_area = 0.5f * std::abs(dot(Vec3(cross(corner[1] - corner[0], corner[2] - corner[0])),

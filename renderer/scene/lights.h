@@ -15,11 +15,11 @@ namespace pluvia {
 
 /// Light that would arrive at a receiver if nothing were in between.
 struct LightSample {
-    Vec3 wi;               // towards the light, unit
-    float distance;        // metres, infinite for distant lights
-    Rgb radiance;          // cd/m2; for delta lights illuminance on a plane facing the light, in lux
-    float pdf;             // with respect to solid angle; for delta lights the probability of the choice
-    bool delta;            // cannot be met by a ray that was sampled otherwise
+    Vec3 wi;         // towards the light, unit
+    float distance;  // metres, infinite for distant lights
+    Rgb radiance;    // cd/m2; for delta lights illuminance on a plane facing the light, in lux
+    float pdf;       // with respect to solid angle; for delta lights the probability of the choice
+    bool delta;      // cannot be met by a ray that was sampled otherwise
 };
 
 class Lights {
@@ -50,12 +50,12 @@ private:
 
     const Scene* scene_;
     const Environment* environment_;
-    std::vector<PunctualLight> punctual_;         // point and spot lights: the first lights of the tree
-    std::vector<EmissiveTriangle> triangles_;     // the lights after them
-    std::vector<int> first_light_of_instance_;    // index among triangles_, -1 = does not emit
+    std::vector<PunctualLight> punctual_;       // point and spot lights: the first lights of the tree
+    std::vector<EmissiveTriangle> triangles_;   // the lights after them
+    std::vector<int> first_light_of_instance_;  // index among triangles_, -1 = does not emit
     std::vector<PunctualLight> directional_;
     Distribution1D directional_choice_;
-    float environment_share_ = 1;                 // probability that sample_distant asks the environment
+    float environment_share_ = 1;  // probability that sample_distant asks the environment
     LightTree tree_;
 };
 

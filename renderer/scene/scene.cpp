@@ -68,7 +68,8 @@ void check_mesh(const Scene& scene, const Mesh& mesh, const std::string& where) 
         for (const uint32_t vertex : triangle)
             if (vertex >= mesh.positions.size())
                 throw input_error(mesh_where, fmt::format("a triangle refers to a vertex that is not there (got {}, "
-                                                          "expected below {})", vertex, mesh.positions.size()));
+                                                          "expected below {})",
+                                                          vertex, mesh.positions.size()));
     for (const Vec3 p : mesh.positions)
         if (!is_finite(p)) throw input_error(mesh_where, "a vertex position is not finite (expected numbers)");
     if (mesh.material < 0) throw input_error(mesh_where, "has no material");

@@ -26,7 +26,8 @@ struct Texture {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// glTF metallic-roughness material. Texture slots are indices into Scene::textures, -1 = none, and multiply the factors.
+/// glTF metallic-roughness material. Texture slots are indices into Scene::textures, -1 = none, and multiply the
+/// factors.
 struct Material {
     std::string name;
     Rgb base_color = Rgb(1);
@@ -34,9 +35,9 @@ struct Material {
     float metallic = 1, roughness = 1;  // roughness is perceptual: GGX alpha is its square
     float specular = 1;                 // scales the reflectance of a dielectric at normal incidence
     float ior = 1.5f;
-    float transmission = 0;             // share of light that passes a thin, smooth sheet instead of meeting the diffuse lobe
-    Rgb emission;                       // cd/m2: emissive factor times strength
-    int base_color_texture = -1;          // sRGB, alpha linear
+    float transmission = 0;       // share of light that passes a thin, smooth sheet instead of meeting the diffuse lobe
+    Rgb emission;                 // cd/m2: emissive factor times strength
+    int base_color_texture = -1;  // sRGB, alpha linear
     int metallic_roughness_texture = -1;  // linear: roughness in g, metallic in b
     int normal_texture = -1;              // linear, tangent space
     int emission_texture = -1;            // sRGB
@@ -57,11 +58,11 @@ struct Tangent {
 struct Mesh {
     std::string name;
     std::vector<Vec3> positions;
-    std::vector<Vec3> normals;   // unit length
-    std::vector<Vec2> uvs;       // (0, 0) is the upper left corner of the picture
+    std::vector<Vec3> normals;  // unit length
+    std::vector<Vec2> uvs;      // (0, 0) is the upper left corner of the picture
     std::vector<Tangent> tangents;
-    std::vector<Rgb> colors;     // linear, multiply the base colour
-    std::vector<float> alphas;   // multiply alpha; empty or as long as colors
+    std::vector<Rgb> colors;    // linear, multiply the base colour
+    std::vector<float> alphas;  // multiply alpha; empty or as long as colors
     std::vector<std::array<uint32_t, 3>> triangles;
     int material = -1;  // index into Scene::materials
 };
@@ -80,7 +81,7 @@ struct PunctualLight {
     Kind kind = Kind::point;
     Rgb intensity = Rgb(1);  // candela for point and spot, lux for directional
     Vec3d position = {};
-    Vec3 direction = {0, 0, -1};  // in which the light shines; spot and directional
+    Vec3 direction = {0, 0, -1};                            // in which the light shines; spot and directional
     float inner_cone_angle = 0, outer_cone_angle = pi / 4;  // radians from the axis
 };
 

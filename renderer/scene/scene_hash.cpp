@@ -15,11 +15,13 @@ public:
     void add(float value) { hash_ = hash_key(hash_, std::bit_cast<uint32_t>(value)); }
     void add(double value) { hash_ = hash_key(hash_, std::bit_cast<uint64_t>(value)); }
     template <class T>
-        requires std::is_enum_v<T>
+    requires std::is_enum_v<T>
     void add(T value) { add(int(value)); }
     void add(Vec2 v) { add(v.x), add(v.y); }
     template <class T>
-    void add(Vector3<T> v) { add(v.x), add(v.y), add(v.z); }
+    void add(Vector3<T> v) {
+        add(v.x), add(v.y), add(v.z);
+    }
     void add(Rgb c) { add(c.r), add(c.g), add(c.b); }
     void add(Rgba8 c) { add(uint32_t(c.r) | uint32_t(c.g) << 8 | uint32_t(c.b) << 16 | uint32_t(c.a) << 24); }
     void add(const Tangent& t) { add(t.direction), add(t.sign); }

@@ -60,8 +60,8 @@ Vec3 shading_normal(const Scene& scene, const Triangle& t, const Transform& scen
     x = normalize(x - n * dot(x, n));
     if (!is_finite(x)) return n;  // a triangle whose uv coordinates do not span it
     // The file's bitangent belongs to the front; n may have been turned to the back or mirrored.
-    const Vec3 front = Vec3(scene_from_object.normal(Vec3d(cross(t.mesh.positions[t.corner[1]] - p0,
-                                                                  t.mesh.positions[t.corner[2]] - p0))));
+    const Vec3 front = Vec3(
+        scene_from_object.normal(Vec3d(cross(t.mesh.positions[t.corner[1]] - p0, t.mesh.positions[t.corner[2]] - p0))));
     const float side = dot(front, n) < 0 ? -1.0f : 1.0f;
     const Vec3 y = cross(n, x) * (tangent.sign * side);
     const Vec3 stored = lookup_linear(scene, material.normal_texture, t.uv());
@@ -103,7 +103,8 @@ Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 dir
     const Triangle t(scene, point);
     const Material& material = scene.materials[t.mesh.material];
     const Transform& scene_from_object = scene.instances[point.instance].scene_from_object;
-    const Vec3 p0 = t.mesh.positions[t.corner[0]], p1 = t.mesh.positions[t.corner[1]], p2 = t.mesh.positions[t.corner[2]];
+    const Vec3 p0 = t.mesh.positions[t.corner[0]], p1 = t.mesh.positions[t.corner[1]],
+               p2 = t.mesh.positions[t.corner[2]];
 
     Surface s;
     // In double: the transform may hold large translations that cancel.

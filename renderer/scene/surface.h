@@ -37,7 +37,8 @@ std::array<Vec3d, 3> corners(const Scene& scene, int instance, int triangle);
 /// Normal of a triangle's front, as glTF defines it, with twice the triangle's area for length.
 Vec3d front_normal(const Scene& scene, int instance, int triangle);
 
-/// Emitted radiance at a point, cd/m2, of the front; the back of a double-sided material emits the same, any other none.
+/// Emitted radiance at a point, cd/m2, of the front; the back of a double-sided material emits the same, any other
+/// none.
 Rgb emission(const Scene& scene, const SurfacePoint& point);
 
 }  // namespace pluvia

@@ -10,12 +10,14 @@ namespace {
 /// i: at most one texel outside of what reduce() leaves, so that no division is needed.
 int wrap_index(int i, int size, Wrap wrap) {
     switch (wrap) {
-    case Wrap::clamp: return std::clamp(i, 0, size - 1);
-    case Wrap::mirror:
-        if (i < 0) return 0;
-        if (i >= 2 * size) return std::min(i - 2 * size, size - 1);
-        return i < size ? i : 2 * size - 1 - i;
-    default: return i < 0 ? i + size : i >= size ? i - size : i;
+        case Wrap::clamp:
+            return std::clamp(i, 0, size - 1);
+        case Wrap::mirror:
+            if (i < 0) return 0;
+            if (i >= 2 * size) return std::min(i - 2 * size, size - 1);
+            return i < size ? i : 2 * size - 1 - i;
+        default:
+            return i < 0 ? i + size : i >= size ? i - size : i;
     }
 }
 

@@ -7,12 +7,10 @@
 namespace pluvia {
 
 std::string intensity_label(double intensity) {
-    std::string text = fmt::format("{}", intensity);
+    const std::string text = fmt::format("{}", intensity);
     const size_t point = text.find('.');
-    const std::string whole = text.substr(0, point);
-    std::string label = std::string(whole.size() < 3 ? 3 - whole.size() : 0, '0') + whole;
-    if (point != std::string::npos) label += "p" + text.substr(point + 1);
-    return label;
+    if (point == std::string::npos) return fmt::format("{:0>3}", text);
+    return fmt::format("{:0>3}p{}", text.substr(0, point), text.substr(point + 1));
 }
 
 std::vector<std::string> layer_channels(const std::vector<double>& intensities) {

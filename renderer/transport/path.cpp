@@ -57,8 +57,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (!ray_scene_->closest_hit(ray, {sampler.key(Draw::opacity, bounce)}, hit, counters)) {
             if (lights_->environment().is_black()) return result;
             counters.count(Feature::environment);
-            const float mis =
-                origin.pdf > 0 ? power_heuristic(origin.pdf, lights_->pdf_distant(ray.direction)) : 1.0f;
+            const float mis = origin.pdf > 0 ? power_heuristic(origin.pdf, lights_->pdf_distant(ray.direction)) : 1.0f;
             result.radiance += throughput * lights_->environment().radiance(ray.direction) * mis;
             return result;
         }
@@ -74,7 +73,8 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
 
         const ShadingBasis basis(surface.shading_normal);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
-        if (!is_delta(bsdf)) result.radiance += throughput * sample_lights(surface, bsdf, basis, sampler, bounce, counters);
+        if (!is_delta(bsdf))
+            result.radiance += throughput * sample_lights(surface, bsdf, basis, sampler, bounce, counters);
 
         const auto next = sample(bsdf, u.x, sampler.get_2d(Draw::bsdf, bounce));
         if (!next) return result;

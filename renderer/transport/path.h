@@ -41,8 +41,8 @@ public:
     const RayScene& ray_scene() const { return *ray_scene_; }
 
 private:
-    Rgb sample_lights(const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis, const Sampler& sampler,
-                      int bounce, Counters& counters) const;
+    Rgb sample_lights(const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis,
+                      const Sampler& sampler, int bounce, Counters& counters) const;
     Rgb weigh(const LightSample& light, const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis,
               OpacityTest opacity, Counters& counters) const;
 

@@ -62,7 +62,8 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, 
         unshadowed += luminance(candidates[count++].contribution);
     };
     const Vec2 choice = sampler.get_2d(Draw::light_choice);
-    if (lights.has_local()) add(lights.sample_local(receiver, choice.x, sampler.get_2d(Draw::light_point)), Draw::light_point);
+    if (lights.has_local())
+        add(lights.sample_local(receiver, choice.x, sampler.get_2d(Draw::light_point)), Draw::light_point);
     if (lights.has_distant()) add(lights.sample_distant(choice.y, sampler.get_2d(Draw::sky_point)), Draw::sky_point);
 
     // What the drop could bring beside what it hides. It depends on the light sample but not on the number that

@@ -56,8 +56,10 @@ public:
 
 private:
     void compose_physical(const RainScratch& scratch, std::vector<RainSample>& samples) const;
-    void compose_paper(const RainScratch& scratch, const CameraSegment& segment, std::vector<RainSample>& samples) const;
-    Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler, Counters& counters) const;
+    void compose_paper(const RainScratch& scratch, const CameraSegment& segment,
+                       std::vector<RainSample>& samples) const;
+    Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler,
+                     Counters& counters) const;
 
     const PathTracer* tracer_;
     const StreakBins* bins_;

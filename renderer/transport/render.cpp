@@ -16,7 +16,9 @@ namespace pluvia {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// All that the tiles of a frame share.
 struct Frame {
@@ -44,7 +46,9 @@ Ray scene_ray(const View& view, const Ray& ray) {
             Vec3(view.world_vector_from_view(Vec3d(ray.direction)))};
 }
 
-void add(std::array<double, 3>& sum, Rgb value) { sum[0] += value.r, sum[1] += value.g, sum[2] += value.b; }
+void add(std::array<double, 3>& sum, Rgb value) {
+    sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
+}
 
 /// Buffers that live as long as a tile, so that no pixel allocates.
 struct Scratch {
@@ -93,7 +97,8 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
     RayHit hit;
     CentreDepth& depth = scratch.depth;
-    const bool found = frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
+    const bool found =
+        frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
     depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
     depth.z = depth.distance * seen.direction.z;
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
@@ -163,7 +168,8 @@ public:
     /// The band of a row of tiles. Rows are asked for in rising order, so that those that others wait for are in work.
     Band& band(int row) {
         std::unique_lock lock(mutex_);
-        written_.wait(lock, [&] { return stopped_ || bands_.count(row) || int(bands_.size()) < max_open_bands; });
+        // Counted in rows: a thread that comes late for the row that all wait for finds its place free.
+        written_.wait(lock, [&] { return stopped_ || row < next_row_ + max_open_bands; });
         auto& entry = bands_[row];
         if (!entry.band) {
             const int y = row * tile_size_;
@@ -215,8 +221,8 @@ private:
 
 }  // namespace
 
-RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& settings,
-                    const BandSink& sink, const ProgressCallback& progress) {
+RenderReport render(const Scene& scene, const Environment& environment, const View& view,
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress) {
     RenderReport report;
     const auto start = Clock::now();
     const RayScene ray_scene(scene);
@@ -249,8 +255,8 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         try {
             const int row = tile / queue.columns(), x = tile % queue.columns() * settings.tile_size;
             Counters counters;
-            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row),
-                        pixel_progress, counters);
+            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row), pixel_progress,
+                        counters);
             queue.complete_tile(row);
             const std::lock_guard lock(report_mutex);
             report.counters += counters;

@@ -33,7 +33,7 @@ using ProgressCallback = std::function<bool(double)>;
 
 /// Renders all layers of layer_channels(settings.rain.intensities_mm_per_h). The bands are the same for any number of
 /// threads and any tile size. Throws Error (stopped_early) when progress returns false.
-RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& settings,
-                    const BandSink& sink, const ProgressCallback& progress);
+RenderReport render(const Scene& scene, const Environment& environment, const View& view,
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress);
 
 }  // namespace pluvia

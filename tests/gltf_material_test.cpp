@@ -1,0 +1,201 @@
+// Materials, textures and pictures of glTF files. Geometry is in gltf_test.cpp.
+#include "renderer/scene/gltf.h"
+
+#include "renderer/image/image_io.h"
+#include "tests/folder.h"
+#include "tests/gltf_draft.h"
+
+#include <doctest/doctest.h>
+
+using namespace pluvia;
+
+namespace {
+
+/// A file whose triangle has this material.
+GltfDraft draft_with(const Json& material) {
+    GltfDraft draft = triangle_draft();
+    draft.root["materials"] = Json::array({material});
+    draft.root["meshes"][0]["primitives"][0]["material"] = 0;
+    return draft;
+}
+
+void check_is_default(const Material& m) {
+    CHECK(m.base_color == Rgb(1));
+    CHECK(m.alpha == 1);
+    CHECK(m.metallic == 1);
+    CHECK(m.roughness == 1);
+    CHECK(m.specular == 1);
+    CHECK(m.ior == 1.5f);
+    CHECK(m.transmission == 0);
+    CHECK(m.emission == Rgb(0));
+    for (const int texture : {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
+        CHECK(texture == -1);
+    CHECK(m.normal_scale == 1);
+    CHECK(m.alpha_mode == AlphaMode::opaque);
+    CHECK(m.alpha_cutoff == 0.5f);
+    CHECK_FALSE(m.double_sided);
+}
+
+constexpr Rgba8 brick = {200, 100, 50, 255};
+
+std::string png() {
+    const auto bytes = encode_png(Image<Rgba8>(2, 1, brick));
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// The smallest baseline JPEG: one block of mid grey, whose two Huffman tables have one code each. ITU-T T.81, annex B.
+std::string jpeg() {
+    const auto bytes = [](std::initializer_list<int> values) {
+        std::string result;
+        for (const int v : values) result += char(v);
+        return result;
+    };
+    const auto table = [&](int id) { return bytes({0xff, 0xc4, 0, 20, id, 1}) + std::string(15, '\0') + bytes({0}); };
+    return bytes({0xff, 0xd8, 0xff, 0xdb, 0, 67, 0}) + std::string(64, 1) +
+           bytes({0xff, 0xc0, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0}) + table(0x00) + table(0x10) +
+           bytes({0xff, 0xda, 0, 8, 1, 1, 0, 0, 63, 0, 0x3f, 0xff, 0xd9});
+}
+
+}  // namespace
+
+TEST_CASE("an empty material and a missing one are the specification's default") {
+    GltfDraft draft = draft_with(Json::object());
+    Scene scene = load(draft);
+    check_is_default(scene.materials[scene.meshes[0].material]);
+    draft.root["meshes"][0]["primitives"][0].erase("material");
+    scene = load(draft);
+    CHECK(scene.meshes[0].material == 1);
+    check_is_default(scene.materials[scene.meshes[0].material]);
+}
+
+TEST_CASE("a material's factors and extensions are read") {
+    const Scene scene = load(draft_with(
+        {{"name", "glass"},
+         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.0625}}},
+         {"emissiveFactor", {1, 0.5, 0}},
+         {"alphaMode", "MASK"}, {"alphaCutoff", 0.25}, {"doubleSided", true},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3000}}},
+                         {"KHR_materials_ior", {{"ior", 1.25}}},
+                         {"KHR_materials_specular", {{"specularFactor", 0.5}}},
+                         {"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}}));
+    const Material& m = scene.materials[0];
+    CHECK(m.name == "glass");
+    CHECK(m.base_color == Rgb(0.5f, 0.25f, 0.125f));
+    CHECK(m.alpha == 0.75f);
+    CHECK(m.metallic == 0.25f);
+    CHECK(m.roughness == 0.0625f);
+    CHECK(m.emission == Rgb(3000, 1500, 0));
+    CHECK(m.ior == 1.25f);
+    CHECK(m.specular == 0.5f);
+    CHECK(m.transmission == 0.75f);
+    CHECK(m.alpha_mode == AlphaMode::mask);
+    CHECK(m.alpha_cutoff == 0.25f);
+    CHECK(m.double_sided);
+    CHECK(scene.warnings.empty());
+    CHECK(load(draft_with({{"alphaMode", "BLEND"}})).materials[0].alpha_mode == AlphaMode::blend);
+    CHECK(load(draft_with({{"alphaMode", "OPAQUE"}})).materials[0].alpha_mode == AlphaMode::opaque);
+}
+
+TEST_CASE("a factor that would create light is brought back into its range, and that is said") {
+    const Scene scene = load(draft_with(
+        {{"name", "odd"}, {"pbrMetallicRoughness", {{"metallicFactor", -1}, {"roughnessFactor", 3}, {"baseColorFactor", {1, 1, 1, 2}}}},
+         {"emissiveFactor", {1, 0.5, 0}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -5}}},
+                         {"KHR_materials_ior", {{"ior", 0.5}}},
+                         {"KHR_materials_specular", {{"specularFactor", 4}}},
+                         {"KHR_materials_transmission", {{"transmissionFactor", 1e300}}}}}}));
+    const Material& m = scene.materials[0];
+    CHECK(m.metallic == 0);
+    CHECK(m.roughness == 1);
+    CHECK(m.alpha == 1);
+    CHECK(m.ior == 1);
+    CHECK(m.specular == 1);
+    CHECK(m.transmission == 1);
+    CHECK(m.emission == Rgb(0));
+    for (const char* name : {"metallicFactor", "roughnessFactor", "alpha", "ior", "specularFactor", "transmissionFactor", "emission"}) {
+        CAPTURE(name);
+        CHECK(warns(scene, std::string("material \"odd\": its ") + name + " is out of range"));
+    }
+    // 0 is allowed and means a surface that reflects everything.
+    const Scene mirror = load(draft_with({{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}}));
+    CHECK(mirror.materials[0].ior >= 1000);
+    CHECK(mirror.warnings.empty());
+}
+
+TEST_CASE("samplers give wrapping and filter of a texture") {
+    GltfDraft draft = draft_with(Json::object());
+    draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
+    draft.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}},
+                              {{"wrapS", 10497}, {"wrapT", 33071}, {"magFilter", 9729}}, Json::object()};
+    for (int sampler = 0; sampler < 3; ++sampler) draft.add("textures", {{"source", 0}, {"sampler", sampler}});
+    draft.add("textures", {{"source", 0}});
+    const Scene scene = load(draft);
+    REQUIRE(scene.textures.size() == 4);
+    CHECK(scene.textures[0].wrap_u == Wrap::clamp);
+    CHECK(scene.textures[0].wrap_v == Wrap::mirror);
+    CHECK(scene.textures[0].nearest);
+    CHECK(scene.textures[1].wrap_u == Wrap::repeat);
+    CHECK(scene.textures[1].wrap_v == Wrap::clamp);
+    CHECK_FALSE(scene.textures[1].nearest);
+    for (const int standard : {2, 3}) {
+        CHECK(scene.textures[standard].wrap_u == Wrap::repeat);
+        CHECK(scene.textures[standard].wrap_v == Wrap::repeat);
+        CHECK_FALSE(scene.textures[standard].nearest);
+    }
+}
+
+TEST_CASE("texture slots refer to their textures, and what a slot cannot have is named") {
+    const Json transform = {{"KHR_texture_transform", {{"scale", {2, 2}}}}};
+    GltfDraft draft = draft_with(
+        {{"name", "wall"},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"extensions", transform}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"normalTexture", {{"index", 2}, {"scale", 0.5}, {"texCoord", 1}}},
+         {"emissiveTexture", {{"index", 3}}},
+         {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}});
+    draft.root["extensionsUsed"] = {"KHR_texture_transform"};
+    draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
+    for (int i = 0; i < 4; ++i) draft.add("textures", {{"source", 0}});
+    const Scene scene = load(draft);
+    const Material& m = scene.materials[0];
+    CHECK(m.base_color_texture == 0);
+    CHECK(m.metallic_roughness_texture == 1);
+    CHECK(m.normal_texture == 2);
+    CHECK(m.normal_scale == 0.5f);
+    CHECK(m.emission_texture == 3);
+    for (const char* text : {"extension KHR_texture_transform", "material \"wall\": KHR_texture_transform of its base colour texture",
+                             "material \"wall\": its normal texture uses TEXCOORD_1", "specularTexture of KHR_materials_specular"}) {
+        CAPTURE(text);
+        CHECK(warns(scene, text));
+    }
+}
+
+TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
+    const Folder folder("gltf_material_test");
+    folder.write("wet road.png", png());
+    GltfDraft draft = triangle_draft();
+    const int view = draft.add_view(png());
+    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}, {{"uri", data_uri(png(), "image/png")}},
+                            {{"uri", "wet%20road.png"}}};
+    for (const bool binary : {false, true}) {
+        const std::string path = binary ? folder.write("s.glb", draft.glb()) : folder.write("s.gltf", draft.gltf());
+        const Scene scene = load_gltf(path);
+        REQUIRE(scene.images.size() == 3);
+        for (const Image<Rgba8>& image : scene.images) {
+            CHECK(image.width == 2);
+            CHECK(image.height == 1);
+            CHECK(image.pixels == std::vector<Rgba8>(2, brick));
+        }
+    }
+}
+
+TEST_CASE("pictures are recognised by their content, whatever the file calls them") {
+    GltfDraft draft = triangle_draft();
+    const int view = draft.add_view(jpeg());
+    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/jpeg"}}, {{"bufferView", view}, {"mimeType", "image/png"}},
+                            {{"uri", data_uri(jpeg(), "image/jpeg")}}};
+    for (const Image<Rgba8>& image : load(draft).images) {
+        CHECK(image.width == 8);
+        CHECK(image.height == 8);
+        CHECK(image.pixels[63] == Rgba8{128, 128, 128, 255});
+    }
+}
