@@ -1,7 +1,6 @@
 #include "tests/gltf_draft.h"
 
 #include "renderer/scene/gltf.h"
-#include "tests/folder.h"
 
 #include <algorithm>
 
@@ -16,8 +15,7 @@ std::string base64(std::string_view bytes) {
     for (size_t i = 0; i < bytes.size(); i += 3) {
         uint32_t bits = 0;
         for (size_t k = 0; k < 3; ++k) bits = bits << 8 | (i + k < bytes.size() ? uint8_t(bytes[i + k]) : 0);
-        for (size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
+        for (size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63] : '=';
     }
     return text;
 }
@@ -48,9 +46,14 @@ int GltfDraft::add_view(std::string_view content, int stride) {
     return add("bufferViews", view);
 }
 
-int GltfDraft::add_accessor(int view, int count, const std::string& type, GltfType component, bool normalized, int offset) {
-    return add("accessors", {{"bufferView", view}, {"byteOffset", offset}, {"componentType", component}, {"count", count},
-                             {"type", type}, {"normalized", normalized}});
+int GltfDraft::add_accessor(int view, int count, const std::string& type, GltfType component, bool normalized,
+                            int offset) {
+    return add("accessors", {{"bufferView", view},
+                             {"byteOffset", offset},
+                             {"componentType", component},
+                             {"count", count},
+                             {"type", type},
+                             {"normalized", normalized}});
 }
 
 int GltfDraft::add_triangle_mesh(Json more) {
@@ -87,9 +90,16 @@ GltfDraft triangle_draft() {
     return draft;
 }
 
+std::string write(const TemporaryFolder& folder, const std::string& name, std::string_view bytes) {
+    const std::string path = folder / name;
+    std::filesystem::remove(path);  // some file systems wait for the disk when a file is overwritten
+    write_file(path, std::string(bytes));
+    return path;
+}
+
 Scene load(const GltfDraft& draft) {
-    const Folder folder("gltf_draft");
-    return load_gltf(folder.write("draft.gltf", draft.gltf()));
+    const TemporaryFolder folder;
+    return load_gltf(write(folder, "draft.gltf", draft.gltf()));
 }
 
 bool warns(const Scene& scene, const std::string& text) {

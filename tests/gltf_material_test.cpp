@@ -1,8 +1,8 @@
 // Materials, textures and pictures of glTF files. Geometry is in gltf_test.cpp.
 #include "renderer/scene/gltf.h"
 
+#include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
-#include "tests/folder.h"
 #include "tests/gltf_draft.h"
 
 #include <doctest/doctest.h>
@@ -71,13 +71,17 @@ TEST_CASE("an empty material and a missing one are the specification's default")
 TEST_CASE("a material's factors and extensions are read") {
     const Scene scene = load(draft_with(
         {{"name", "glass"},
-         {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.0625}}},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.0625}}},
          {"emissiveFactor", {1, 0.5, 0}},
-         {"alphaMode", "MASK"}, {"alphaCutoff", 0.25}, {"doubleSided", true},
-         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3000}}},
-                         {"KHR_materials_ior", {{"ior", 1.25}}},
-                         {"KHR_materials_specular", {{"specularFactor", 0.5}}},
-                         {"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}}));
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.25},
+         {"doubleSided", true},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 3000}}},
+           {"KHR_materials_ior", {{"ior", 1.25}}},
+           {"KHR_materials_specular", {{"specularFactor", 0.5}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 0.75}}}}}}));
     const Material& m = scene.materials[0];
     CHECK(m.name == "glass");
     CHECK(m.base_color == Rgb(0.5f, 0.25f, 0.125f));
@@ -98,12 +102,14 @@ TEST_CASE("a material's factors and extensions are read") {
 
 TEST_CASE("a factor that would create light is brought back into its range, and that is said") {
     const Scene scene = load(draft_with(
-        {{"name", "odd"}, {"pbrMetallicRoughness", {{"metallicFactor", -1}, {"roughnessFactor", 3}, {"baseColorFactor", {1, 1, 1, 2}}}},
+        {{"name", "odd"},
+         {"pbrMetallicRoughness", {{"metallicFactor", -1}, {"roughnessFactor", 3}, {"baseColorFactor", {1, 1, 1, 2}}}},
          {"emissiveFactor", {1, 0.5, 0}},
-         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", -5}}},
-                         {"KHR_materials_ior", {{"ior", 0.5}}},
-                         {"KHR_materials_specular", {{"specularFactor", 4}}},
-                         {"KHR_materials_transmission", {{"transmissionFactor", 1e300}}}}}}));
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", -5}}},
+           {"KHR_materials_ior", {{"ior", 0.5}}},
+           {"KHR_materials_specular", {{"specularFactor", 4}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 1e300}}}}}}));
     const Material& m = scene.materials[0];
     CHECK(m.metallic == 0);
     CHECK(m.roughness == 1);
@@ -112,7 +118,8 @@ TEST_CASE("a factor that would create light is brought back into its range, and 
     CHECK(m.specular == 1);
     CHECK(m.transmission == 1);
     CHECK(m.emission == Rgb(0));
-    for (const char* name : {"metallicFactor", "roughnessFactor", "alpha", "ior", "specularFactor", "transmissionFactor", "emission"}) {
+    for (const char* name :
+         {"metallicFactor", "roughnessFactor", "alpha", "ior", "specularFactor", "transmissionFactor", "emission"}) {
         CAPTURE(name);
         CHECK(warns(scene, std::string("material \"odd\": its ") + name + " is out of range"));
     }
@@ -126,7 +133,8 @@ TEST_CASE("samplers give wrapping and filter of a texture") {
     GltfDraft draft = draft_with(Json::object());
     draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
     draft.root["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}},
-                              {{"wrapS", 10497}, {"wrapT", 33071}, {"magFilter", 9729}}, Json::object()};
+                              {{"wrapS", 10497}, {"wrapT", 33071}, {"magFilter", 9729}},
+                              Json::object()};
     for (int sampler = 0; sampler < 3; ++sampler) draft.add("textures", {{"source", 0}, {"sampler", sampler}});
     draft.add("textures", {{"source", 0}});
     const Scene scene = load(draft);
@@ -146,12 +154,13 @@ TEST_CASE("samplers give wrapping and filter of a texture") {
 
 TEST_CASE("texture slots refer to their textures, and what a slot cannot have is named") {
     const Json transform = {{"KHR_texture_transform", {{"scale", {2, 2}}}}};
-    GltfDraft draft = draft_with(
-        {{"name", "wall"},
-         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"extensions", transform}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
-         {"normalTexture", {{"index", 2}, {"scale", 0.5}, {"texCoord", 1}}},
-         {"emissiveTexture", {{"index", 3}}},
-         {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}});
+    GltfDraft draft = draft_with({{"name", "wall"},
+                                  {"pbrMetallicRoughness",
+                                   {{"baseColorTexture", {{"index", 0}, {"extensions", transform}}},
+                                    {"metallicRoughnessTexture", {{"index", 1}}}}},
+                                  {"normalTexture", {{"index", 2}, {"scale", 0.5}, {"texCoord", 1}}},
+                                  {"emissiveTexture", {{"index", 3}}},
+                                  {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}});
     draft.root["extensionsUsed"] = {"KHR_texture_transform"};
     draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
     for (int i = 0; i < 4; ++i) draft.add("textures", {{"source", 0}});
@@ -162,22 +171,24 @@ TEST_CASE("texture slots refer to their textures, and what a slot cannot have is
     CHECK(m.normal_texture == 2);
     CHECK(m.normal_scale == 0.5f);
     CHECK(m.emission_texture == 3);
-    for (const char* text : {"extension KHR_texture_transform", "material \"wall\": KHR_texture_transform of its base colour texture",
-                             "material \"wall\": its normal texture uses TEXCOORD_1", "specularTexture of KHR_materials_specular"}) {
+    for (const char* text :
+         {"extension KHR_texture_transform", "material \"wall\": KHR_texture_transform of its base colour texture",
+          "material \"wall\": its normal texture uses TEXCOORD_1", "specularTexture of KHR_materials_specular"}) {
         CAPTURE(text);
         CHECK(warns(scene, text));
     }
 }
 
 TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
-    const Folder folder("gltf_material_test");
-    folder.write("wet road.png", png());
+    const TemporaryFolder folder;
+    write(folder, "wet road.png", png());
     GltfDraft draft = triangle_draft();
     const int view = draft.add_view(png());
-    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}, {{"uri", data_uri(png(), "image/png")}},
+    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}},
+                            {{"uri", data_uri(png(), "image/png")}},
                             {{"uri", "wet%20road.png"}}};
     for (const bool binary : {false, true}) {
-        const std::string path = binary ? folder.write("s.glb", draft.glb()) : folder.write("s.gltf", draft.gltf());
+        const std::string path = binary ? write(folder, "s.glb", draft.glb()) : write(folder, "s.gltf", draft.gltf());
         const Scene scene = load_gltf(path);
         REQUIRE(scene.images.size() == 3);
         for (const Image<Rgba8>& image : scene.images) {
@@ -188,10 +199,28 @@ TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
     }
 }
 
+TEST_CASE("a picture in the current folder is not taken for one beside the scene") {
+    const TemporaryFolder folder;
+    const auto before = std::filesystem::current_path();
+    std::filesystem::create_directory(folder / "elsewhere");
+    write(folder, "elsewhere/bricks.png", png());
+    GltfDraft draft = triangle_draft();
+    draft.root["images"] = {{{"uri", "bricks.png"}}};
+    write(folder, "scene.gltf", draft.gltf());
+    std::filesystem::current_path(folder / "elsewhere");
+    CHECK_THROWS_AS(load_gltf("../scene.gltf"), Error);
+    write(folder, "bricks.png", png());
+    CHECK_NOTHROW(load_gltf("../scene.gltf"));
+    std::filesystem::current_path(folder.path());
+    CHECK_NOTHROW(load_gltf("scene.gltf"));
+    std::filesystem::current_path(before);
+}
+
 TEST_CASE("pictures are recognised by their content, whatever the file calls them") {
     GltfDraft draft = triangle_draft();
     const int view = draft.add_view(jpeg());
-    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/jpeg"}}, {{"bufferView", view}, {"mimeType", "image/png"}},
+    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/jpeg"}},
+                            {{"bufferView", view}, {"mimeType", "image/png"}},
                             {{"uri", data_uri(jpeg(), "image/jpeg")}}};
     for (const Image<Rgba8>& image : load(draft).images) {
         CHECK(image.width == 8);

@@ -4,7 +4,6 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/camera.h"
-#include "tests/folder.h"
 #include "tests/gltf_draft.h"
 
 #include <doctest/doctest.h>
@@ -32,7 +31,9 @@ std::string interleaved_vertices() {
     for (int i = 0; i < 3; ++i) {
         const float position[3] = {float(i), float(10 * i), float(100 * i)};
         const uint8_t color[4] = {0, 51, uint8_t(255 * (i == 2)), 255};
-        bytes.append(reinterpret_cast<const char*>(position), 12).append(reinterpret_cast<const char*>(color), 4).append("????");
+        bytes.append(reinterpret_cast<const char*>(position), 12)
+            .append(reinterpret_cast<const char*>(color), 4)
+            .append("????");
     }
     return bytes;
 }
@@ -43,8 +44,10 @@ TEST_CASE("nested transforms a million metres away are composed without loss") {
     GltfDraft draft;
     const int mesh = draft.add_triangle_mesh();
     // A quarter turn about z, its quaternion of length 2.8, then a scale of 2; the child undoes most of the distance.
-    const int child = draft.add("nodes", {{"mesh", mesh}, {"translation", {-500000.125, 0.001, 0}}, {"scale", {1, 3, 1}}});
-    draft.add_root({{"translation", {0, 1000000.25, 0}}, {"rotation", {0, 0, 2, 2}}, {"scale", {2, 2, 2}}, {"children", {child}}});
+    const int child =
+        draft.add("nodes", {{"mesh", mesh}, {"translation", {-500000.125, 0.001, 0}}, {"scale", {1, 3, 1}}});
+    draft.add_root(
+        {{"translation", {0, 1000000.25, 0}}, {"rotation", {0, 0, 2, 2}}, {"scale", {2, 2, 2}}, {"children", {child}}});
     const Scene scene = load(draft);
     // Right to left: scale 3 in y, move, scale 2, turn (x, y) to (-y, x), move. 1e-8: some ulps of doubles near 1e6.
     check_near(file_point(scene, 0, {0, 0, 0}), {-0.002, 0, 0}, 1e-8);
@@ -54,7 +57,8 @@ TEST_CASE("nested transforms a million metres away are composed without loss") {
 
 TEST_CASE("a node's matrix is read column by column") {
     GltfDraft draft;
-    draft.add_root({{"mesh", draft.add_triangle_mesh()}, {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
+    draft.add_root(
+        {{"mesh", draft.add_triangle_mesh()}, {"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1}}});
     const Scene scene = load(draft);
     check_near(file_point(scene, 0, {1, 0, 0}), {5, 8, 7}, 1e-12);
     check_near(file_point(scene, 0, {0, 1, 0}), {2, 6, 7}, 1e-12);
@@ -120,7 +124,8 @@ TEST_CASE("texture coordinates and colours as normalised integers become fractio
     draft.root["accessors"][uv8]["count"] = 3;
     const int uv16 = draft.add_values<uint16_t>({0, 65535, 13107, 0, 65535, 26214}, "VEC2", gltf_ushort, true);
     const int rgb16 = draft.add_values<uint16_t>({0, 13107, 65535, 0, 0, 0, 65535, 0, 0}, "VEC3", gltf_ushort, true);
-    const int rgba8 = draft.add_values<uint8_t>({0, 51, 255, 255, 0, 0, 0, 0, 255, 0, 0, 102}, "VEC4", gltf_ubyte, true);
+    const int rgba8 =
+        draft.add_values<uint8_t>({0, 51, 255, 255, 0, 0, 0, 0, 255, 0, 0, 102}, "VEC4", gltf_ubyte, true);
     const int first = draft.add_triangle_mesh({{"attributes", {{"TEXCOORD_0", uv8}, {"COLOR_0", rgb16}}}});
     const int second = draft.add_triangle_mesh({{"attributes", {{"TEXCOORD_0", uv16}, {"COLOR_0", rgba8}}}});
     draft.add_root({{"mesh", first}}), draft.add_root({{"mesh", second}});
@@ -137,7 +142,8 @@ TEST_CASE("texture coordinates and colours as normalised integers become fractio
 TEST_CASE("interleaved attributes are read with their stride") {
     GltfDraft draft;
     const int view = draft.add_view(interleaved_vertices(), 20);
-    const int position = draft.add_accessor(view, 3, "VEC3", gltf_float), color = draft.add_accessor(view, 3, "VEC4", gltf_ubyte, true, 12);
+    const int position = draft.add_accessor(view, 3, "VEC3", gltf_float),
+              color = draft.add_accessor(view, 3, "VEC4", gltf_ubyte, true, 12);
     const Json primitive = {{"attributes", {{"POSITION", position}, {"COLOR_0", color}}}};
     draft.add_root({{"mesh", draft.add("meshes", {{"primitives", Json::array({primitive})}})}});
     const Scene scene = load(draft);
@@ -153,10 +159,13 @@ TEST_CASE("punctual lights keep their candela and lux, and shine along their nod
     draft.root["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "point"}, {"intensity", 100}, {"color", {1, 0.5, 0.25}}},
         {{"type", "spot"}, {"name", "torch"}, {"intensity", 40}, {"spot", spot}},
-        {{"type", "directional"}}, {{"type", "spot"}, {"spot", Json::object()}, {"range", 10}}};
+        {{"type", "directional"}},
+        {{"type", "spot"}, {"spot", Json::object()}, {"range", 10}}};
     for (int i = 0; i < 4; ++i)  // turned by a quarter about y: -z becomes -x
-        draft.add_root({{"name", "light_" + std::to_string(i)}, {"translation", {i, 2, 3}},
-                        {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}, {"scale", {2, 2, 2}},
+        draft.add_root({{"name", "light_" + std::to_string(i)},
+                        {"translation", {i, 2, 3}},
+                        {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}},
+                        {"scale", {2, 2, 2}},
                         {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
     const Scene scene = load(draft);
     REQUIRE(scene.lights.size() == 4);
@@ -181,9 +190,10 @@ TEST_CASE("punctual lights keep their candela and lux, and shine along their nod
 
 TEST_CASE("cameras keep their field of view and are named by the camera, else by the node") {
     GltfDraft draft = triangle_draft();
-    draft.root["cameras"] = {{{"type", "perspective"}, {"name", "wide"}, {"perspective", {{"yfov", 1.2}, {"znear", 0.1}}}},
-                             {{"type", "perspective"}, {"perspective", {{"yfov", 0.4}, {"znear", 0.1}, {"aspectRatio", 3}}}},
-                             {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}}};
+    draft.root["cameras"] = {
+        {{"type", "perspective"}, {"name", "wide"}, {"perspective", {{"yfov", 1.2}, {"znear", 0.1}}}},
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.4}, {"znear", 0.1}, {"aspectRatio", 3}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 9}}}}};
     for (int i = 0; i < 3; ++i)
         draft.add_root({{"name", "node_camera_" + std::to_string(i)}, {"camera", i}, {"translation", {0, 0, i + 1}}});
     const Scene scene = load(draft);
@@ -245,16 +255,16 @@ TEST_CASE("a street ten thousand kilometres away loses nothing to single precisi
 
 TEST_CASE("the same content as .gltf and as .glb gives the same scene") {
     GltfDraft draft = triangle_draft();
-    const Folder folder("gltf_test");
-    const Scene text = load_gltf(folder.write("street.gltf", draft.gltf()));
-    const Scene binary = load_gltf(folder.write("street.glb", draft.glb()));
+    const TemporaryFolder folder;
+    const Scene text = load_gltf(write(folder, "street.gltf", draft.gltf()));
+    const Scene binary = load_gltf(write(folder, "street.glb", draft.glb()));
     CHECK(content_hash(text) == content_hash(binary));
     CHECK(text.name == "street");
     CHECK(binary.name == "street");
     CHECK(text.warnings.empty());
     CHECK(binary.warnings.empty());
     draft.root["nodes"][0]["translation"] = {1, 0, 0};
-    CHECK(content_hash(load_gltf(folder.write("street.glb", draft.glb()))) != content_hash(binary));
+    CHECK(content_hash(load_gltf(write(folder, "street.glb", draft.glb()))) != content_hash(binary));
 }
 
 TEST_CASE("what a file asks for and does not get is named in a warning") {
@@ -269,8 +279,9 @@ TEST_CASE("what a file asks for and does not get is named in a warning") {
     primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     const Scene scene = load(draft);
     CHECK(scene.meshes.size() == 1);
-    for (const char* text : {"KHR_materials_sheen", "animations", "node \"triangle\": its skin", "mesh \"leaf\": its morph targets",
-                             "primitive 1 is not made of triangles (mode 0)", "primitive 2 is not made of triangles (mode 1)"}) {
+    for (const char* text :
+         {"KHR_materials_sheen", "animations", "node \"triangle\": its skin", "mesh \"leaf\": its morph targets",
+          "primitive 1 is not made of triangles (mode 0)", "primitive 2 is not made of triangles (mode 1)"}) {
         CAPTURE(text);
         CHECK(warns(scene, text));
     }

@@ -5,4 +5,6 @@ cd "$(dirname "$0")/.."
 tools/build.sh
 build/pluvia scenes lane -o out
 build/pluvia render out/lane.glb --camera front --hour 17.75 --exposure 4.8 --view filmic --rain 10,100 --shutter 0.004 -o out/lane --overwrite
-oiiotool out/lane/background.png out/lane/rain_layer_100.png out/lane/depth.png --autocc --ch 0,0,0 out/lane/rainy_100.png --mosaic 2x2 -o out/lane/overview.png
+# The picture in the README: clean, rainy; light of the streaks, rain mask.
+cd out/lane
+oiiotool background.png rainy_100.png rain_layer_100.png rain_mask_100.png --ch 0,0,0 --mosaic 2x2 --resize 1200x600 -o overview.png

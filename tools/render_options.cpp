@@ -35,7 +35,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     const CLI::Validator seed_range = CLI::Range(0.0, 0x1p64 * (1 - 0x1p-53)).description("");
     command.add_option("--spp", o.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
-        .add_option("--bounces", o.bounces, "cut paths after this many; BIASED: loses light. -1 = unlimited, unbiased")
+        .add_option(
+            "--bounces", o.bounces,
+            "cut paths after this many, a raindrop being one of them; BIASED: loses light. -1 = unlimited, unbiased")
         ->capture_default_str()
         ->group(quality);
     command.add_option("--seed", o.seed, "of all random numbers")

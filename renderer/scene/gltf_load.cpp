@@ -77,7 +77,7 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
 }
 
 // Far more than any file has; a chain of nodes is followed by recursion, which must not use up the stack.
-constexpr int max_depth = 1000;
+constexpr int max_depth = 256;
 
 /// Walks the node tree and adds what hangs on it, with transforms composed in double precision.
 class NodeWalk {
