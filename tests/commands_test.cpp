@@ -14,6 +14,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <set>
 #include <thread>
 
@@ -68,6 +69,49 @@ TEST_CASE("every command explains itself with an example") {
     CHECK(run_program("--version").out.find("0.") != std::string::npos);
 }
 
+TEST_CASE("the examples that --help shows work") {
+    const TemporaryFolder folder;
+    fs::create_symlink(PLUVIA_PROGRAM, folder / "pluvia");
+    REQUIRE(run_program("scenes lane -o " + folder.path()).exit_code == 0);
+    CHECK(run_program("scenes --list").out.find("lane") != std::string::npos);
+    int examples = 0;
+    for (const char* command : {"", "render", "scenes", "inspect"}) {
+        std::istringstream help(run_program(std::string(command) + " --help").out);
+        std::string line;
+        while (std::getline(help, line) && line != "Example:") {
+        }
+        for (; std::getline(help, line) && line.starts_with("  pluvia "); ++examples) {
+            // The last command of a line is a render but for those of other commands; its frame may exist by now.
+            if (line.find("pluvia render") != std::string::npos) line += small + "--overwrite";
+            CAPTURE(line);
+            CHECK(std::system(("cd " + folder.path() + "; PATH=.:$PATH; { " + line + "; } >log 2>&1").c_str()) == 0);
+        }
+    }
+    CHECK(examples >= 5);
+}
+
+TEST_CASE("of an option given twice the last one counts, and a list ends where the next word begins") {
+    const TemporaryFolder folder;
+    const std::string scene = write_scene(folder), out = folder / "out";
+    const Outcome done = run_program("render" + small + "--wind -1,0,2 --rain 10,50 " + scene +
+                                     " --size 16x8 --rain 25 --overwrite --overwrite -o " + out);
+    CAPTURE(done.err);
+    REQUIRE(done.exit_code == 0);
+    const Json settings = Json::parse(read_file(out + "/frame.json"))["settings"];
+    CHECK(settings["size"] == "16x8");
+    CHECK(settings["wind"] == Json::array({-1.0, 0.0, 2.0}));
+    CHECK(settings["rain"] == Json::array({10.0, 50.0, 25.0}));
+}
+
+TEST_CASE("a scene whose file name is not UTF-8 is rendered and inspected like any other") {
+    const TemporaryFolder folder;
+    const std::string scene = folder / "stra\337e.glb", out = folder / "out";  // Latin-1
+    fs::rename(write_scene(folder), scene);
+    CHECK(run_program("render " + scene + small + "-o " + out).exit_code == 0);
+    CHECK(Json::parse(read_file(out + "/frame.json"))["scene"]["name"] == "stra\uFFFDe");
+    CHECK(Json::parse(run_program("inspect --json " + scene).out)["scene"] == "stra\uFFFDe");
+}
+
 TEST_CASE("a frame has all its files, layers and records") {
     const TemporaryFolder folder;
     const std::string scene = write_scene(folder), out = folder / "frame";
@@ -107,55 +151,70 @@ TEST_CASE("the same command gives the same bytes, with one thread or two, anywhe
     fs::copy_file(scene, there / "court.glb");
     const std::string options = small + "--rain 10,50 --streak-width 0.5 --hour 21 -o ";
     REQUIRE(run_program("render " + scene + options + (here / "a") + " --threads 1").exit_code == 0);
+    char today[8];
+    const std::time_t now = std::time(nullptr);
+    std::strftime(today, sizeof today, "%Y-%m", std::gmtime(&now));
     REQUIRE(run_program("render " + (there / "court.glb") + options + (there / "b") + " --threads 2").exit_code == 0);
     for (const std::string& name : names_in(here / "a")) {
         CAPTURE(name);
         const std::string bytes = read_file((here / "a") + "/" + name);
         CHECK(bytes == read_file((there / "b") + "/" + name));
-        CHECK(bytes.find(here.path()) == std::string::npos);  // no product knows where it was made
+        CHECK(bytes.find(here.path()) == std::string::npos);  // no product knows where it was made, and when
+        CHECK(bytes.find(today) == std::string::npos);
+        CHECK(bytes.find(std::string(today).replace(4, 1, ":")) == std::string::npos);  // as EXR and EXIF write it
     }
 }
 
 TEST_CASE("mistakes get one line that says where, what, got and expected, and their exit code") {
     const TemporaryFolder folder;
     const std::string scene = write_scene(folder), to = " -o " + (folder / "out");
+    write_file(folder / "letter.glb", "no scene");
     struct Mistake {
         std::string arguments;
         int exit_code;
         std::string word;
     };
-    write_file(folder / "letter.glb", "no scene");
-    for (const Mistake& m : std::vector<Mistake>{
-             {"render " + scene + to + " --spp 0", 2, "--spp"},
-             {"render " + scene + to + " --size 10", 2, "--size"},
-             {"render " + scene + to + " --rain 9000", 2, "--rain"},
-             {"render " + scene + to + " --rain nan", 2, "--rain"},
-             {"render " + scene + to + " --rain 10,10", 2, "--rain"},
-             {"render " + scene + to + " --hour 25", 2, "--hour"},
-             {"render " + scene + to + " --date 2024-13-40", 2, ""},
-             {"render " + scene + to + " --weather snow", 2, "--weather"},
-             {"render " + scene + to + " --view nice", 2, "nice"},
-             {"render " + scene + to + " --camera nobody", 2, "eye"},
-             {"render " + scene + to + " --exposure bright", 2, "--exposure"},
-             {"render " + scene + to + " --depth-encoding foo", 2, "--depth-encoding"},
-             {"render " + scene + to + " --focus 3", 2, "--focus"},
-             {"render " + scene + to + " --bounces -2", 2, "--bounces"},
-             {"render " + scene + to + " --composition art", 2, "--composition"},
-             {"render " + scene + to + " --no-such-option", 2, "--no-such-option"},
-             {"render " + scene + to + " --environment absent.hdr", 3, "absent.hdr"},
-             {"render " + (folder / "absent.glb") + to, 3, "absent.glb"},
-             {"render " + (folder / "letter.glb") + to, 3, "letter.glb"},
-             {"render " + scene + " -o /proc/nowhere", 4, "/proc/nowhere"},
-             {"scenes atlantis", 2, "atlantis"},
-             {"inspect", 2, "inspect"},
-             {"", 2, ""},
-         }) {
+    std::vector<Mistake> mistakes = {
+        {"render " + scene + to + " --date 2024-13-40", 2, ""},
+        {"render " + scene + to + " --view nice", 2, "nice"},
+        {"render " + scene + to + " --camera nobody", 2, "eye"},
+        {"render " + scene + to + " --environment 1,1,1 --environment-scale nan", 2, "--environment-scale"},
+        {"render " + scene + to + " --environment 1,1,1 --environment-illuminance inf", 2, "--environment-illum"},
+        {"render " + scene + to + " --f-number 2 --focus inf", 2, "--focus"},
+        {"render " + scene + to + " --depth-encoding hri --depth-max 0", 2, "--depth-max"},
+        {"render " + scene + " " + scene + to, 2, "not expected"},
+        {"render " + scene + " -o " + (folder / std::string(300, 'a')), 4, "too long"},
+        {"render " + scene + " -o " + (folder / "letter.glb/out"), 4, "letter.glb/out"},
+        {"render " + scene + to + " --environment absent.hdr", 3, "absent.hdr"},
+        {"render " + (folder / "absent.glb") + to, 3, "absent.glb"},
+        {"render " + (folder / "letter.glb") + to, 3, "letter.glb"},
+        {"render " + scene + " -o /proc/nowhere", 4, "/proc/nowhere"},
+        {"scenes atlantis", 2, "atlantis"},
+        {"inspect", 2, "inspect"},
+        {"atlantis", 2, "no command \"atlantis\""},
+        {"", 2, ""},
+    };
+    // Of these the message names the option.
+    std::istringstream options(
+        "--spp 0|--size 10|--rain 9000|--rain nan|--rain 10,10|--hour 25|--weather snow|"
+        "--exposure bright|--depth-encoding foo|--focus 3|--bounces -2|--composition art|--bounces 1.5|"
+        "--seed -1|--threads -1|--wind 1,2|--camera-velocity nan,0,0|--streak-width 0|--streak-gain inf|"
+        "--latitude 91|--longitude nan|--utc-offset 99|--sun-elevation 100|--sun-azimuth nan|"
+        "--turbidity 1|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"
+        "--frame 9999999999|--progress loud|--no-such-option");
+    for (std::string option; std::getline(options, option, '|');)
+        mistakes.push_back({"render " + scene + to + " " + option, 2, option.substr(0, option.find(' '))});
+    for (const Mistake& m : mistakes) {
         const Outcome o = run_program(m.arguments);
         CAPTURE(m.arguments);
         CAPTURE(o.err);
         CHECK(o.exit_code == m.exit_code);
         CHECK(o.err.starts_with("pluvia: error: "));
         CHECK(o.err.find(m.word) != std::string::npos);
+        if (o.err.starts_with("pluvia: error: --")) {
+            CHECK(o.err.find("(got ") != std::string::npos);
+            CHECK(o.err.find(", expected ") != std::string::npos);
+        }
         CHECK(std::count(o.err.begin(), o.err.end(), '\n') == 1);
         CHECK_FALSE(fs::exists(folder / "out/frame.json"));
     }

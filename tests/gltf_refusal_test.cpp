@@ -265,6 +265,21 @@ TEST_CASE("a file with any one byte changed is read or refused, never more") {
     CHECK(refused > int(picture));  // most of the bytes matter
 }
 
+TEST_CASE("a file with any one value replaced is read or refused, never more") {
+    const TemporaryFolder folder;
+    const Json others = {nullptr, true, -1, int64_t(1) << 40, 1e300, "x", Json::array(), Json::object(), {{0}}};
+    const Json leaves = textured_draft().root.flatten();
+    int refused = 0;
+    for (const auto& [pointer, leaf] : leaves.items())
+        for (Json::json_pointer place(pointer); !place.empty(); place.pop_back())  // the value and what it is part of
+            for (const Json& other : others) {
+                GltfDraft draft = textured_draft();
+                draft.root[place] = other;
+                refused += !refusal(write(folder, "changed.gltf", draft.gltf())).empty();
+            }
+    CHECK(refused > int(leaves.size()));
+}
+
 TEST_CASE("a small file that speaks of two thousand million elements takes no memory for them") {
     const TemporaryFolder folder;
     GltfDraft draft = textured_draft();

@@ -27,7 +27,12 @@ int run(int argc, const char* const* argv) {
         return int(ExitCode::ok);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
-        std::cerr << "pluvia: error: command line: " << e.what() << "; see pluvia --help\n";
+        // CLI11 would only say that a command is missing.
+        const bool unknown = argc > 1 && argv[1][0] != '-' &&
+                             app.get_subcommands([&](const CLI::App* c) { return c->get_name() == argv[1]; }).empty();
+        std::cerr << "pluvia: error: command line: "
+                  << (unknown ? std::string("there is no command \"") + argv[1] + '"' : e.what())
+                  << "; see pluvia --help\n";
         return int(ExitCode::usage);
     } catch (const Error& e) {
         std::cerr << "pluvia: error: " << e.what() << "\n";

@@ -55,7 +55,7 @@ ExrAttributes exr_attributes(const FrameHeader& h) {
             {"pluvia:scene", h.scene_name},
             {"pluvia:scene_hash", fmt::format("{:016x}", h.scene_hash)},
             {"pluvia:camera", h.camera_name},
-            {"pluvia:settings", h.options.dump()},
+            {"pluvia:settings", json_text(h.options)},
             {"pluvia:units", "radiance: cd/m2, linear Rec.709; Z, distance: metres"},
             {"pluvia:intensities_mm_per_h", std::vector<float>(h.intensities.begin(), h.intensities.end())},
             {"pluvia:camera_velocity", floats(h.view.velocity)},
@@ -74,6 +74,10 @@ void FrameWriter::write(const Band& band) {
     writer_.write_rows(band.y, band.rows, rows);
     for (size_t i = 0; i < band.planes[0].size(); ++i)
         histogram_.add({band.planes[0][i], band.planes[1][i], band.planes[2][i]});
+}
+
+std::string json_text(const nlohmann::ordered_json& json, int indent) {
+    return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void write_text(const std::string& path, const std::string& text) {

@@ -35,6 +35,9 @@ private:
     LuminanceHistogram histogram_;
 };
 
+/// JSON as text, on one line unless indented. Bytes that are not UTF-8, as names of files may have them, become U+FFFD.
+std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
+
 /// Writes text under a temporary name and renames it. Throws Error (render_failed) when that is impossible.
 void write_text(const std::string& path, const std::string& text);
 

@@ -3,6 +3,7 @@
 #include "renderer/rain/drop_size.h"
 #include "renderer/scene/gltf.h"
 #include "tools/commands.h"
+#include "tools/frame_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -100,7 +101,7 @@ void print(const Json& j, const std::string& indent = "") {
             print(value, indent + "  ");
         } else {
             std::cout << fmt::format("{}{:<26}{}\n", indent, key,
-                                     value.is_string() ? value.get<std::string>() : value.dump());
+                                     value.is_string() ? value.get<std::string>() : json_text(value));
         }
     }
 }
@@ -113,7 +114,7 @@ void inspect_command(const InspectOptions& options) {
     for (const double intensity : options.rain) j["rain"][fmt::format("{:g}", intensity)] = drop_statistics(intensity);
     if (j.empty()) throw usage_error("inspect", "has nothing to look at (expected a scene, an .exr file or --rain)");
     if (options.json)
-        std::cout << j.dump(2) << "\n";
+        std::cout << json_text(j, 2) << "\n";
     else
         print(j);
 }

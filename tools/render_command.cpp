@@ -41,7 +41,7 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
         j["depths_beyond"] = display.depths_beyond;
         for (size_t i = 0; i < intensities.size(); ++i)
             j["rain_mask_share"][intensity_label(intensities[i])] = display.mask_shares[i];
-        std::cout << j.dump(2) << "\n";
+        std::cout << json_text(j, 2) << "\n";
         return;
     }
     std::cout << fmt::format("{}: {:.1f} s, {:.2f} million paths/s, EV {:.1f}\n", options.output, r.render_seconds,
@@ -98,10 +98,10 @@ void render_command(const RenderOptions& options) {
 
     display.ev100 = exposure ? *exposure : writer.background_luminance().auto_ev100();
     display.text = {{"Software", std::string("Pluvia ") + PLUVIA_VERSION},
-                    {"pluvia:settings", header.options.dump()},
+                    {"pluvia:settings", json_text(header.options)},
                     {"pluvia:exposure_ev100", fmt::format("{}", display.ev100)}};
     const DisplayReport shown = write_display_files(options.output, exr, header.intensities, display);
-    write_text(options.output + "/frame.json", frame_json(header, display.ev100, result.counters).dump(2) + "\n");
+    write_text(options.output + "/frame.json", json_text(frame_json(header, display.ev100, result.counters), 2) + "\n");
     report(options, result, shown, display.ev100, header.intensities);
     if (result.counters.invalid_samples > 0)
         throw Error(ExitCode::render_failed, options.output,
