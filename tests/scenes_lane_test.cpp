@@ -1,6 +1,7 @@
 // The lane is whole: sizes, attributes, measures of what is lit, the same every time, and its file holds all of it.
 #include "renderer/scene/gltf.h"
 #include "scenes/builders.h"
+#include "tests/temporary_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -18,18 +19,6 @@ namespace {
 const Scene& lane() {
     static const Scene scene = build_lane();
     return scene;
-}
-
-struct TemporaryFolder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / "pluvia_scenes_lane_test";
-    TemporaryFolder() { std::filesystem::create_directories(path); }
-    ~TemporaryFolder() { std::filesystem::remove_all(path); }
-    std::string file(const char* name) const { return (path / name).string(); }
-};
-
-std::string bytes_of(const std::string& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 const Material& material_named(const Scene& scene, const std::string& name) {
@@ -154,13 +143,13 @@ TEST_CASE("what is lit in the lane has the luminance of its kind") {
 
 TEST_CASE("building the lane twice gives the same file, and the file holds the same lane") {
     const TemporaryFolder folder;
-    save_glb(lane(), folder.file("a.glb"));
-    save_glb(build_lane(), folder.file("b.glb"));
-    const std::string bytes = bytes_of(folder.file("a.glb"));
-    CHECK(bytes == bytes_of(folder.file("b.glb")));
+    save_glb(lane(), folder / "a.glb");
+    save_glb(build_lane(), folder / "b.glb");
+    const std::string bytes = read_file(folder / "a.glb");
+    CHECK(bytes == read_file(folder / "b.glb"));
     CHECK(bytes.size() < 25e6);
 
-    const Scene back = load_gltf(folder.file("a.glb"));
+    const Scene back = load_gltf(folder / "a.glb");
     CHECK(back.warnings.empty());
     REQUIRE(back.meshes.size() == lane().meshes.size());
     std::map<std::string, const Mesh*> meshes_back;  // the loader numbers meshes as its nodes come
