@@ -53,7 +53,7 @@ public:
     /// picture: in cd/m2, linear Rec.709, looked up bilinearly: it wraps in azimuth, and beyond the centres of the
     /// first and last row it holds their value. Negative components, as resampling leaves them in files, become 0.
     /// Throws input_error when the picture has no texels or one that is not finite, or the disc no size.
-    /// The tables for sampling take 8 bytes a texel beside the 12 of the picture: 0.7 GB for 8192 x 4096 texels.
+    /// The tables for sampling take 12 bytes a texel beside the 12 of the picture: 0.8 GB for 8192 x 4096 texels.
     explicit Environment(Image<Rgb> picture, const SunDisc& sun = {});
 
     /// Multiplies all radiance by a factor that is finite and not negative: to apply a scale, or to reach a wanted
@@ -93,7 +93,7 @@ private:
 
     Image<Rgb> picture_;  // no texels: uniform_ instead
     Rgb uniform_;
-    float scale_ = 1;     // of the picture
+    float scale_ = 1;  // of the picture
     SunDisc sun_;
     float sun_one_minus_cos_ = 0;
     ShadingBasis sun_basis_{Vec3(0, 1, 0)};

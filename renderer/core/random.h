@@ -35,20 +35,31 @@ constexpr double unit_double(uint64_t bits) {
 }
 
 /// What a random number decides. Each belongs to a domain of its own, so that a feature that starts or stops asking
-/// shifts no other feature's numbers.
+/// shifts no other feature's numbers. Those of a vertex come first: they are computed together.
 enum class Draw : uint32_t {
-    pixel,
-    lens,
-    opacity,
     lobe,
     bsdf,
     light_choice,
     light_point,
-    sky_choice,
     sky_point,
     roulette,
+    pixel,
+    lens,
+    opacity,
     streak_choice,
     streak_phase,
+};
+constexpr uint32_t first_draws = 8;
+
+/// The first draws of one vertex of a path.
+class VertexNumbers {
+public:
+    Vec2 get_2d(Draw draw) const { return {x[uint32_t(draw)], y[uint32_t(draw)]}; }
+    float get_1d(Draw draw) const { return x[uint32_t(draw)]; }
+
+private:
+    friend class Sampler;
+    std::array<float, first_draws> x, y;
 };
 
 /// The numbers of one camera sample: low-discrepancy over the samples of a pixel, independent between pixels and draws.
@@ -63,10 +74,13 @@ public:
     float get_1d(Draw draw, uint32_t bounce = 0) const { return get_2d(draw, bounce).x; }
     /// Uniform in [0, 1)^2.
     Vec2 get_2d(Draw draw, uint32_t bounce = 0) const;
+    /// The same numbers as get_2d for all of the first draws, at about the price of two.
+    VertexNumbers vertex(uint32_t bounce) const;
 
-    /// A key for hashing that differs between all samples, draws and bounces.
+    /// A key to be hashed further. It differs between all samples, draws and bounces but is not mixed.
     uint64_t key(Draw draw, uint32_t bounce = 0) const {
-        return hash_key(pixel_key_, sample_, (uint64_t(bounce) << 32) | uint32_t(draw));
+        return pixel_key_ + sample_ * 0x9e3779b97f4a7c15ull +
+               ((uint64_t(bounce) << 32) | uint32_t(draw)) * 0xc2b2ae3d27d4eb4full;
     }
     /// The same camera sample seen by another, independent part of the program.
     Sampler fork(uint64_t domain) const {

@@ -6,6 +6,7 @@
 #include "renderer/core/vec.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -85,10 +86,10 @@ public:
 
 private:
     std::vector<double> cdf_;  // size() + 1 values from 0 to 1
+    // Cell in which each of size() equal steps of u begins: from there the cell of u is two steps away on average,
+    // whatever the weights. Source: Chen and Asau 1974, "On Generating Random Variates from an Empirical Distribution".
+    std::vector<uint32_t> guide_;
     double total_ = 0;
 };
-
-/// Index of the last element <= u; u below the first element gives 0.
-int find_interval(std::span<const double> sorted, double u);
 
 }  // namespace pluvia

@@ -31,18 +31,18 @@ Rgb PathTracer::weigh(const LightSample& light, const Surface& surface, const Pr
 }
 
 Rgb PathTracer::sample_lights(const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis,
-                              const Sampler& sampler, int bounce, Counters& counters) const {
+                              const Sampler& sampler, const VertexNumbers& u, int bounce, Counters& counters) const {
     Rgb sum;
-    const Vec2 choice = sampler.get_2d(Draw::light_choice, bounce);
+    const Vec2 choice = u.get_2d(Draw::light_choice);
     if (lights_->has_local()) {
         counters.count(Feature::local_light);
         const Receiver receiver{surface.position, surface.shading_normal};
-        if (const auto light = lights_->sample_local(receiver, choice.x, sampler.get_2d(Draw::light_point, bounce)))
+        if (const auto light = lights_->sample_local(receiver, choice.x, u.get_2d(Draw::light_point)))
             sum += weigh(*light, surface, bsdf, basis, {sampler.key(Draw::light_point, bounce)}, counters);
     }
     if (lights_->has_distant()) {
         counters.count(Feature::distant_light);
-        if (const auto light = lights_->sample_distant(choice.y, sampler.get_2d(Draw::sky_point, bounce)))
+        if (const auto light = lights_->sample_distant(choice.y, u.get_2d(Draw::sky_point)))
             sum += weigh(*light, surface, bsdf, basis, {sampler.key(Draw::sky_point, bounce)}, counters);
     }
     return sum;
@@ -62,8 +62,9 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
             return result;
         }
         if (bounce == first_bounce) result.distance = hit.distance;
-        const Vec2 u = sampler.get_2d(Draw::lobe, bounce);
-        const Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, u.y, counters);
+        const VertexNumbers u = sampler.vertex(bounce);
+        const Vec2 lobe = u.get_2d(Draw::lobe);
+        const Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, lobe.y, counters);
         if (!is_black(surface.emission)) {
             const float mis =
                 origin.pdf > 0 ? power_heuristic(origin.pdf, lights_->pdf_local(origin.receiver, hit.point)) : 1.0f;
@@ -74,9 +75,9 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const ShadingBasis basis(surface.shading_normal);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
-            result.radiance += throughput * sample_lights(surface, bsdf, basis, sampler, bounce, counters);
+            result.radiance += throughput * sample_lights(surface, bsdf, basis, sampler, u, bounce, counters);
 
-        const auto next = sample(bsdf, u.x, sampler.get_2d(Draw::bsdf, bounce));
+        const auto next = sample(bsdf, lobe.x, u.get_2d(Draw::bsdf));
         if (!next) return result;
         const Vec3 wi = basis.to_world(next->wi);
         // A direction above the shading normal's horizon may still enter the surface.
@@ -85,7 +86,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (is_black(throughput)) return result;
         if (bounce >= first_roulette_bounce) {
             const float survival = std::min(max_survival, max_component(throughput));
-            if (sampler.get_1d(Draw::roulette, bounce) >= survival) return result;
+            if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }
         origin = {next->delta ? 0.0f : next->pdf, {surface.position, surface.shading_normal}};

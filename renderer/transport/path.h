@@ -42,7 +42,7 @@ public:
 
 private:
     Rgb sample_lights(const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis,
-                      const Sampler& sampler, int bounce, Counters& counters) const;
+                      const Sampler& sampler, const VertexNumbers& u, int bounce, Counters& counters) const;
     Rgb weigh(const LightSample& light, const Surface& surface, const PreparedBsdf& bsdf, const ShadingBasis& basis,
               OpacityTest opacity, Counters& counters) const;
 
