@@ -37,6 +37,7 @@ Scene scene_of_everything() {
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.1f}};
     mesh.normals = {{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 1}};
     mesh.uvs = {{0, 1}, {1, 1}, {0, -3.5f}};
+    mesh.uvs1 = {{0.5f, 0}, {2, 1}, {0.25f, 0.75f}};
     mesh.tangents = {{{1, 0, 0}, -1}, {{1, 0, 0}, -1}, {{1, 0, 0}, -1}};
     mesh.colors = {Rgb(0.1f), Rgb(0.2f), {0.3f, 0.4f, 0.5f}};
     mesh.alphas = {0.5f, 1, 0.25f};
@@ -44,7 +45,8 @@ Scene scene_of_everything() {
     mesh.material = 0;
     scene.meshes = {mesh};
     mesh.name = "bare", mesh.material = 1;
-    mesh.normals.clear(), mesh.uvs.clear(), mesh.tangents.clear(), mesh.colors.clear(), mesh.alphas.clear();
+    mesh.normals.clear(), mesh.uvs.clear(), mesh.uvs1.clear(), mesh.tangents.clear(), mesh.colors.clear(),
+        mesh.alphas.clear();
     scene.meshes.push_back(mesh);
     for (const std::string name : {"street/block/house_1", "street/block/house_2", "alone"})
         scene.instances.push_back({name, instance_id(name), name == "alone" ? 1 : 0,
@@ -130,6 +132,7 @@ TEST_CASE("meshes come back bit by bit and stay shared, and instances keep their
         CHECK(a.positions == b.positions);
         CHECK(a.normals == b.normals);
         CHECK(a.uvs == b.uvs);
+        CHECK(a.uvs1 == b.uvs1);
         CHECK(a.colors == b.colors);
         CHECK(a.alphas == b.alphas);
         CHECK(a.triangles == b.triangles);

@@ -42,10 +42,14 @@ Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
         const auto n = read_floats(model, a, 3, where);
         for (size_t i = 0; i < n.size(); i += 3) mesh.normals.emplace_back(n[i], n[i + 1], n[i + 2]);
     }
-    if (const int a = attribute("TEXCOORD_0"); a != -1) {
+    const auto read_uvs = [&](const char* key, std::vector<Vec2>& uvs) {
+        const int a = attribute(key);
+        if (a == -1) return;
         const auto uv = read_floats(model, a, 2, where);
-        for (size_t i = 0; i < uv.size(); i += 2) mesh.uvs.push_back({uv[i], uv[i + 1]});
-    }
+        for (size_t i = 0; i < uv.size(); i += 2) uvs.push_back({uv[i], uv[i + 1]});
+    };
+    read_uvs("TEXCOORD_0", mesh.uvs);
+    read_uvs("TEXCOORD_1", mesh.uvs1);
     if (const int a = attribute("TANGENT"); a != -1) {
         const auto t = read_floats(model, a, 4, where);
         for (size_t i = 0; i < t.size(); i += 4) mesh.tangents.push_back({{t[i], t[i + 1], t[i + 2]}, t[i + 3]});

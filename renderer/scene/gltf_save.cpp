@@ -165,9 +165,10 @@ private:
         model_.accessors[position].minValues = {lower.x, lower.y, lower.z};
         model_.accessors[position].maxValues = {upper.x, upper.y, upper.z};
         primitive.attributes["POSITION"] = position;
-        std::vector<float> n, uv, t, c;
+        std::vector<float> n, uv, uv1, t, c;
         for (const Vec3 v : mesh.normals) n.insert(n.end(), {v.x, v.y, v.z});
         for (const Vec2 v : mesh.uvs) uv.insert(uv.end(), {v.x, v.y});
+        for (const Vec2 v : mesh.uvs1) uv1.insert(uv1.end(), {v.x, v.y});
         for (const Tangent& v : mesh.tangents) t.insert(t.end(), {v.direction.x, v.direction.y, v.direction.z, v.sign});
         for (size_t i = 0; i < mesh.colors.size(); ++i) {
             c.insert(c.end(), {mesh.colors[i].r, mesh.colors[i].g, mesh.colors[i].b});
@@ -175,6 +176,7 @@ private:
         }
         if (!n.empty()) primitive.attributes["NORMAL"] = add_floats(n, 3);
         if (!uv.empty()) primitive.attributes["TEXCOORD_0"] = add_floats(uv, 2);
+        if (!uv1.empty()) primitive.attributes["TEXCOORD_1"] = add_floats(uv1, 2);
         if (!t.empty()) primitive.attributes["TANGENT"] = add_floats(t, 4);
         if (!c.empty()) primitive.attributes["COLOR_0"] = add_floats(c, mesh.alphas.empty() ? 3 : 4);
         primitive.indices =

@@ -61,6 +61,7 @@ void check_mesh(const Scene& scene, const Mesh& mesh, const std::string& where) 
     };
     check_size(mesh.normals.size(), "NORMAL");
     check_size(mesh.uvs.size(), "TEXCOORD_0");
+    check_size(mesh.uvs1.size(), "TEXCOORD_1");
     check_size(mesh.tangents.size(), "TANGENT");
     check_size(mesh.colors.size(), "COLOR_0");
     check_size(mesh.alphas.size(), "COLOR_0 alpha");

@@ -60,6 +60,7 @@ struct Mesh {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;  // unit length
     std::vector<Vec2> uvs;      // (0, 0) is the upper left corner of the picture
+    std::vector<Vec2> uvs1;     // a second set that texture slots may choose
     std::vector<Tangent> tangents;
     std::vector<Rgb> colors;    // linear, multiply the base colour
     std::vector<float> alphas;  // multiply alpha; empty or as long as colors

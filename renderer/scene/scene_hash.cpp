@@ -40,7 +40,7 @@ public:
         add(m.normal_texture), add(m.emission_texture), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
     }
     void add(const Mesh& m) {
-        add(m.positions), add(m.normals), add(m.uvs), add(m.tangents), add(m.colors), add(m.alphas);
+        add(m.positions), add(m.normals), add(m.uvs), add(m.uvs1), add(m.tangents), add(m.colors), add(m.alphas);
         add(m.triangles), add(m.material);
     }
     void add(const Instance& i) { add(i.id), add(i.mesh), add(i.scene_from_object); }
