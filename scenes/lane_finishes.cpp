@@ -160,6 +160,9 @@ void add_lit(Street& street, Finishes& f) {
     write_column(box, {"sake", "ya"}, 128, 40, 470, 0.11f);
     f.lit_sign_box =
         lit("lit_sign_box", Rgb(0.8f), nits(halogen, 480), written(box, {1, 0.86f, 0.6f}, {0.12f, 0.004f, 0.004f}));
+    for (const int finish : {f.lit_window, f.warm_window, f.lamp_glass, f.white_lantern, f.red_lantern, f.lit_sign,
+                             f.lit_sign_tall, f.lit_sign_box})
+        street.scene.materials[size_t(street.finishes[size_t(finish)].material)].lamp = true;
 }
 
 void add_signs(Street& street, Finishes& f) {

@@ -200,7 +200,7 @@ TEST_CASE("mistakes get one line that says where, what, got and expected, and th
         "--exposure bright|--depth-encoding foo|--focus 3|--bounces -2|--composition art|--bounces 1.5|"
         "--seed -1|--threads -1|--wind 1,2|--camera-velocity nan,0,0|--streak-width 0|--streak-gain inf|"
         "--latitude 91|--longitude nan|--utc-offset 99|--sun-elevation 100|--sun-azimuth nan|"
-        "--turbidity 1|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"
+        "--turbidity 1|--lamps dim|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"
         "--frame 9999999999|--progress loud|--no-such-option");
     for (std::string option; std::getline(options, option, '|');)
         mistakes.push_back({"render " + scene + to + " " + option, 2, option.substr(0, option.find(' '))});

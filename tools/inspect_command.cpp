@@ -2,6 +2,7 @@
 #include "renderer/image/exr.h"
 #include "renderer/rain/drop_size.h"
 #include "renderer/scene/gltf.h"
+#include "renderer/scene/lamps.h"
 #include "tools/commands.h"
 #include "tools/frame_file.h"
 
@@ -41,6 +42,7 @@ Json features(const Scene& scene) {
     j["emissive_materials"] = emissive, j["transmitting_materials"] = panes;
     j["vertex_colored_meshes"] = colored;
     j["punctual_lights"] = scene.lights.size();
+    j["lamps"] = lamp_count(scene);
     return j;
 }
 

@@ -2,6 +2,7 @@
 #include "renderer/core/parallel.h"
 #include "renderer/image/exr.h"
 #include "renderer/scene/gltf.h"
+#include "renderer/scene/lamps.h"
 #include "tools/commands.h"
 #include "tools/display_files.h"
 #include "tools/frame_file.h"
@@ -68,17 +69,19 @@ void render_command(const RenderOptions& options) {
     display.paper = settings.streaks.composition == Composition::paper;
     DisplayView check_view(options.view);
     const auto progress_style = Progress::style_from_name(options.progress);
-    const Environment environment = make_environment(options);
+    const Environment environment = make_environment(options.light, !options.rain.empty());
     set_thread_count(options.threads);
 
-    const Scene scene = load_gltf(options.scene);
+    Scene scene = load_gltf(options.scene);
     for (const std::string& warning : scene.warnings)
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     const Camera camera = find_camera(scene, options.camera);
+    const uint64_t scene_hash = content_hash(scene);  // of the file, whatever is switched off
+    if (lamp_count(scene) > 0 && !lamps_are_on(options.light, environment)) switch_off_lamps(scene);
     prepare_folder(options);
 
     FrameHeader header{scene.name,
-                       content_hash(scene),
+                       scene_hash,
                        scene.origin,
                        camera.name,
                        make_view(camera, camera_options),

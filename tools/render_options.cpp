@@ -66,33 +66,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->capture_default_str()
         ->group(rain);
 
-    const auto* light = "Light";
-    command.add_option("--hour", o.hour, "local time, 0 to 24")->capture_default_str()->group(light);
-    command.add_option("--date", o.date, "YYYY-MM-DD")->capture_default_str()->group(light);
-    command.add_option("--latitude", o.latitude, "degrees, north positive")->capture_default_str()->group(light);
-    command.add_option("--longitude", o.longitude, "degrees, east positive")->capture_default_str()->group(light);
-    command.add_option("--utc-offset", o.utc_offset, "hours that local time is ahead of UTC")
-        ->capture_default_str()
-        ->group(light);
-    command.add_option("--sun-elevation", o.sun_elevation, "degrees, instead of time and place")->group(light);
-    command.add_option("--sun-azimuth", o.sun_azimuth, "degrees clockwise from north (-Z), with --sun-elevation")
-        ->group(light);
-    command.add_option("--weather", o.weather, "clear, overcast or rain; default: rain with --rain, else clear")
-        ->group(light);
-    command.add_option("--turbidity", o.turbidity, "haze of the clear sky, 2 to 10")
-        ->capture_default_str()
-        ->group(light);
-    command
-        .add_option("--environment", o.environment,
-                    "instead of the sky: equirectangular HDR or EXR file, or R,G,B in cd/m2")
-        ->group(light);
-    command.add_option("--environment-scale", o.environment_scale, "cd/m2 per unit of the file")
-        ->capture_default_str()
-        ->group(light);
-    command
-        .add_option("--environment-illuminance", o.environment_illuminance,
-                    "scale the file to this horizontal illuminance in lux")
-        ->group(light);
+    add_light_options(command, o.light);
 
     const auto* output = "Output";
     command.add_option("--exposure", o.exposure, "EV at ISO 100, or auto")->capture_default_str()->group(output);
@@ -130,18 +104,7 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;
     j["streak-gain"] = o.streak_gain, j["streak-width"] = o.streak_width;
-    if (o.environment.empty()) {
-        j["hour"] = o.hour, j["date"] = o.date, j["latitude"] = o.latitude, j["longitude"] = o.longitude;
-        j["utc-offset"] = o.utc_offset;
-        optional("sun-elevation", o.sun_elevation), optional("sun-azimuth", o.sun_azimuth);
-        j["weather"] = !o.weather.empty() ? o.weather : o.rain.empty() ? "clear" : "rain";
-        j["turbidity"] = o.turbidity;
-    } else {
-        // The file's name without its folder: a picture does not change with the place where its light is kept.
-        j["environment"] = o.environment.substr(o.environment.find_last_of('/') + 1);
-        j["environment-scale"] = o.environment_scale;
-        optional("environment-illuminance", o.environment_illuminance);
-    }
+    add_json(j, o.light, !o.rain.empty());
     j["exposure"] = o.exposure, j["view"] = o.view;
     j["depth-encoding"] = o.depth_encoding, j["depth-max"] = o.depth_max;
     return j;

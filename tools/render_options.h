@@ -3,8 +3,7 @@
 
 #include "renderer/image/depth_encoding.h"
 #include "renderer/transport/render.h"
-#include "shaders/sky.h"
-#include "shaders/sun_position.h"
+#include "tools/light_options.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -29,15 +28,7 @@ struct RenderOptions {
     double streak_gain = 24.5;
     double streak_width = 1;
     std::vector<double> camera_velocity = {0, 0, 0};
-    double hour = 12;
-    std::string date = "2024-09-22";
-    double latitude = 35.7, longitude = 139.7, utc_offset = 9;  // Tokyo
-    std::optional<double> sun_elevation, sun_azimuth;           // degrees
-    std::string weather;
-    double turbidity = 3;
-    std::string environment;
-    double environment_scale = 1;
-    std::optional<double> environment_illuminance;
+    LightOptions light;
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
     double shutter = 1.0 / 60;
     std::string exposure = "auto", view = "srgb";
@@ -56,9 +47,6 @@ CameraSettings camera_settings(const RenderOptions& options);
 RenderSettings render_settings(const RenderOptions& options);
 /// Empty where the exposure is measured from the picture.
 std::optional<double> exposure_ev100(const RenderOptions& options);
-/// The light that --environment or hour, place and weather ask for. With rain and no word about weather it rains from
-/// an overcast sky, which is said on stderr.
-Environment make_environment(const RenderOptions& options);
 
 /// Options that decide over the picture, with their values, as recorded in every file.
 nlohmann::ordered_json to_json(const RenderOptions& options);

@@ -2,6 +2,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf_accessor.h"
+#include "renderer/scene/gltf_lamp.h"
 #include "renderer/scene/gltf_material.h"
 #include "renderer/scene/gltf_parse.h"
 
@@ -111,10 +112,13 @@ public:
         if (!is_finite(scene_from_node.translation) || !std::isfinite(scene_from_node.determinant()))
             throw input_error(fmt::format("{}: node \"{}\"", where_, path),
                               "its transform is not finite (expected numbers)");
+        const bool lamp_above = lamp_;
+        lamp_ = lamp_above || is_marked_lamp(node.extras);
         if (node.mesh != -1) add_mesh(node, path, scene_from_node);
         if (node.camera != -1) add_camera(node, name, scene_from_node);
         if (node.extensions.count("KHR_lights_punctual")) add_light(node, name, scene_from_node);
         for (const int child : node.children) walk(child, scene_from_node, path, depth + 1);
+        lamp_ = lamp_above;
     }
 
 private:
@@ -128,7 +132,7 @@ private:
         const tinygltf::Mesh& mesh = model_.meshes[node.mesh];
         if (first_part_[node.mesh] < 0) read_mesh(mesh, node.mesh);
         for (int part = 0; part < part_count_[node.mesh]; ++part)
-            scene_.instances.push_back({path, instance_id(path), first_part_[node.mesh] + part, scene_from_node});
+            scene_.instances.push_back({path, instance_id(path), first_part_[node.mesh] + part, scene_from_node, lamp_});
     }
 
     void read_mesh(const tinygltf::Mesh& mesh, int index) {
@@ -208,6 +212,7 @@ private:
                 fmt::format("light \"{}\": its range is ignored, light falls off with distance "
                             "squared",
                             light.name));
+        light.lamp = lamp_;
         scene_.lights.push_back(light);
     }
 
@@ -217,6 +222,7 @@ private:
     std::vector<int> first_part_;  // first Scene mesh of each glTF mesh, -1 = not read yet
     std::vector<int> part_count_ = std::vector<int>(first_part_.size(), 0);
     std::vector<bool> visited_;
+    bool lamp_ = false;  // the node in hand or one above it is marked as a lamp
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf_accessor.h"
+#include "renderer/scene/gltf_lamp.h"
 
 #include <fmt/format.h>
 
@@ -33,6 +34,7 @@ public:
     Material read(const tinygltf::Material& source) {
         Material m;
         m.name = source.name;
+        m.lamp = is_marked_lamp(source.extras);
         const auto& pbr = source.pbrMetallicRoughness;
         m.base_color = rgb_from(pbr.baseColorFactor, Rgb(1));
         m.alpha = pbr.baseColorFactor.size() == 4 ? in_range(source, "alpha", pbr.baseColorFactor[3], 0, 1) : 1.0f;

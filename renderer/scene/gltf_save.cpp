@@ -6,6 +6,7 @@
 #include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/pending_file.h"
+#include "renderer/scene/gltf_lamp.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -143,6 +144,7 @@ private:
         // The cutoff means nothing in the other modes, and a file that states it there is not valid.
         if (material.alpha_mode == AlphaMode::mask) entry.alphaCutoff = material.alpha_cutoff;
         entry.doubleSided = material.double_sided;
+        if (material.lamp) entry.extras = lamp_mark();
         model_.materials.push_back(entry);
     }
 
@@ -213,6 +215,7 @@ private:
         node.name = instance.name.substr(slash + 1);
         node.mesh = instance.mesh;
         node.matrix = matrix_of(in_file(instance.scene_from_object));
+        if (instance.lamp) node.extras = lamp_mark();
         add_node(node, group(slash == std::string::npos ? "" : instance.name.substr(0, slash)));
     }
 
@@ -239,6 +242,7 @@ private:
         node.extensions["KHR_lights_punctual"] =
             tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
         use_extension("KHR_lights_punctual");
+        if (light.lamp) node.extras = lamp_mark();
         add_node(node, -1);
     }
 

@@ -45,6 +45,7 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;  // decides whether the back emits; seen and lit are all surfaces from both sides
+    bool lamp = false;          // its emission can be switched: see lamps.h
 
     bool emits() const { return !is_black(emission); }
 };
@@ -74,6 +75,7 @@ struct Instance {
     uint32_t id = 0;   // hash of the path, stable across frames
     int mesh = -1;
     Transform scene_from_object;
+    bool lamp = false;  // what it emits can be switched: see lamps.h
 };
 
 struct PunctualLight {
@@ -84,6 +86,7 @@ struct PunctualLight {
     Vec3d position = {};
     Vec3 direction = {0, 0, -1};                            // in which the light shines; spot and directional
     float inner_cone_angle = 0, outer_cone_angle = pi / 4;  // radians from the axis
+    bool lamp = false;                                      // it can be switched: see lamps.h
 };
 
 struct Camera {

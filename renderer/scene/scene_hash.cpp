@@ -38,15 +38,16 @@ public:
         add(m.base_color), add(m.alpha), add(m.metallic), add(m.roughness), add(m.specular), add(m.ior);
         add(m.transmission), add(m.emission), add(m.base_color_texture), add(m.metallic_roughness_texture);
         add(m.normal_texture), add(m.emission_texture), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
+        add(m.lamp);
     }
     void add(const Mesh& m) {
         add(m.positions), add(m.normals), add(m.uvs), add(m.uvs1), add(m.tangents), add(m.colors), add(m.alphas);
         add(m.triangles), add(m.material);
     }
-    void add(const Instance& i) { add(i.id), add(i.mesh), add(i.scene_from_object); }
+    void add(const Instance& i) { add(i.id), add(i.mesh), add(i.scene_from_object), add(i.lamp); }
     void add(const PunctualLight& l) {
         add(l.kind), add(l.intensity), add(l.position), add(l.direction);
-        add(l.inner_cone_angle), add(l.outer_cone_angle);
+        add(l.inner_cone_angle), add(l.outer_cone_angle), add(l.lamp);
     }
     uint64_t value() const { return hash_; }
 
