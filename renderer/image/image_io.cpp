@@ -130,9 +130,8 @@ Image<Rgb> read_radiance_exr(const std::string& path) {
     return image;
 }
 
-Image<Rgb> read_radiance_other(const std::string& path) {
-    const std::vector<std::byte> bytes = read_file(path);
-    Source source(bytes, path);
+/// Values as stored, integers divided by their largest.
+Image<Rgb> read_rgb(Source& source) {
     const int count = source.spec().nchannels < 3 ? 1 : 3;
     const std::vector<float> values = source.read<float>(count);
     Image<Rgb> image(source.spec().width, source.spec().height);
@@ -140,6 +139,13 @@ Image<Rgb> read_radiance_other(const std::string& path) {
         const float* v = &values[i * std::size_t(count)];
         image.pixels[i] = count == 3 ? Rgb(v[0], v[1], v[2]) : Rgb(v[0]);
     }
+    return image;
+}
+
+Image<Rgb> read_radiance_other(const std::string& path) {
+    const std::vector<std::byte> bytes = read_file(path);
+    Source source(bytes, path);
+    Image<Rgb> image = read_rgb(source);
     if (!is_float(source.spec()))
         for (Rgb& p : image.pixels) p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b)};
     return image;
@@ -178,6 +184,13 @@ Image<uint16_t> read_grey16(const std::string& path) {
     image.height = source.spec().height;
     image.pixels = source.read<uint16_t>(1);
     return image;
+}
+
+Image<Rgb> read_display(const std::string& path) {
+    const std::vector<std::byte> bytes = read_file(path);
+    Source source(bytes, path);
+    if (is_float(source.spec())) throw input_error(path, "holds float values (expected integers of 8 or 16 bits)");
+    return read_rgb(source);
 }
 
 Image<Rgb> read_radiance(const std::string& path) {

@@ -36,6 +36,10 @@ Image<Rgba8> decode_rgba8(std::span<const std::byte> bytes, const std::string& w
 /// its meaning. Ask read_image_info where the difference matters. Throws for float pictures too.
 Image<uint16_t> read_grey16(const std::string& path);
 
+/// Integer picture as stored: value / 255 or / 65535, no colour conversion, no alpha. Grey is repeated.
+/// Throws for float pictures.
+Image<Rgb> read_display(const std::string& path);
+
 /// Scene-linear Rec.709 picture: float formats (HDR, EXR) as stored, channels R, G and B where they are named, else
 /// the first three, or a single one as grey; integer formats through the sRGB curve (color.h).
 /// Values below zero (ringing of a filter) become 0; throws when a value is not finite.

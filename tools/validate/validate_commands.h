@@ -1,0 +1,10 @@
+// pluvia validate and its sub-commands, each in a file of its own.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace pluvia {
+
+void add_compare_command(CLI::App& validate);
+
+}  // namespace pluvia
