@@ -3,6 +3,7 @@
 #include "renderer/image/exr.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf.h"
+#include "tests/run_program.h"
 #include "tests/temporary_folder.h"
 #include "tests/test_scenes.h"
 
@@ -23,20 +24,6 @@ namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int exit_code;
-    std::string out, err;
-};
-
-Outcome run_program(const std::string& arguments) {
-    const TemporaryFolder logs;
-    const std::string command =
-        std::string(PLUVIA_PROGRAM) + " " + arguments + " >" + (logs / "out") + " 2>" + (logs / "err") + " </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(logs / "out"),
-            read_file(logs / "err")};
-}
 
 /// A court with a lamp, as a user's file.
 std::string write_scene(const TemporaryFolder& folder) {

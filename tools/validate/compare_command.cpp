@@ -23,14 +23,7 @@ struct CompareOptions {
 };
 
 std::string definitions() {
-    std::string text = "Metrics (A is judged, B is the reference):\n";
-    for (const MetricInfo& info : metric_list()) {
-        std::string definition = info.definition;
-        for (size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; at += 19)
-            definition.replace(at, 1, "\n" + std::string(18, ' '));
-        text += fmt::format("  {:<16}{}\n", info.name, definition);
-    }
-    return text +
+    return "Metrics (A is judged, B is the reference):\n" + metric_definitions() +
            "Light (EXR, HDR) is displayed by dividing by --white, clipping to 0..1 and the sRGB curve; pictures of 8 "
            "or\n"
            "16 bits are taken as stored, divided by 255 or 65535, for all metrics. Depth needs values that are finite "
@@ -44,8 +37,8 @@ std::string definitions() {
            "In folders files of the same relative path are compared; names with `mask` are masks, those that begin\n"
            "with `depth` are depth.\n\n"
            "Exit code 1 when a --fail limit is passed by any picture or region.\n\n"
-           "Example:\n  pluvia validate compare out/wet/frame.exr out/dry/frame.exr --layer rainy_100:background "
-           "--html out/difference.html";
+           "Example:\n  pluvia validate compare out/wet/frame.exr out/wet/frame.exr --layer rainy_100:background "
+           "--html out/rain.html";
 }
 
 void compare_command(const CompareOptions& options) {
@@ -70,12 +63,12 @@ void compare_command(const CompareOptions& options) {
     const auto pairs = compare(options.a, options.b, settings, [&](const ComparedPair& pair) {
         if (!options.html.empty()) report.add(pair);
     });
+    const auto beyond = beyond_limits(pairs, limits);
     if (!options.html.empty()) report.write(options.html, options.a, options.b, pairs);
     if (options.json)
         std::cout << json_text(compare_json(options.a, options.b, pairs), 2) << "\n";
     else
         std::cout << compare_table(options.a, options.b, pairs);
-    const auto beyond = beyond_limits(pairs, limits);
     if (beyond.empty()) return;
     for (const std::string& line : beyond) std::cerr << line << "\n";
     throw Error(ExitCode::check_failed, "validate compare",

@@ -48,6 +48,11 @@ std::optional<ExrLayer> layer_of(const std::string& name, const Group& group) {
     return std::nullopt;
 }
 
+/// What Blender's compositor made of the view layers; only its full name asks for it.
+bool is_composite(const std::string& name) {
+    return name.starts_with("Composite.");
+}
+
 std::optional<ExrLayer> find_picture(const Groups& groups) {
     std::vector<ExrLayer> colors;
     for (const auto& [name, group] : groups)
@@ -57,7 +62,8 @@ std::optional<ExrLayer> find_picture(const Groups& groups) {
             if (layer.name == name) return layer;
     std::vector<ExrLayer> combined;
     for (const ExrLayer& layer : colors)
-        if (layer.name == "Combined" || layer.name.ends_with(".Combined")) combined.push_back(layer);
+        if (layer.name == "Combined" || (layer.name.ends_with(".Combined") && !is_composite(layer.name)))
+            combined.push_back(layer);
     if (combined.size() == 1) return combined[0];
     if (colors.size() == 1) return colors[0];
     if (groups.size() == 1 && groups.begin()->second.size() == 1) return single(groups.begin()->second.begin()->second);
@@ -69,7 +75,7 @@ std::vector<ExrLayer> find_named(const Groups& groups, const std::string& wanted
     for (const auto& [name, group] : groups) {
         for (const auto& [suffix, channel] : group)
             if (channel == wanted) return {single(channel)};
-        if (name != wanted && !name.ends_with("." + wanted)) continue;
+        if (name != wanted && (!name.ends_with("." + wanted) || is_composite(name))) continue;
         if (auto layer = layer_of(name, group)) found.push_back(*layer);
     }
     return found;

@@ -19,9 +19,9 @@ constexpr const char* style = R"(
 body{font:15px/1.45 system-ui,sans-serif;margin:24px auto;max-width:1240px;padding:0 16px;color:#222;background:#fff}
 h1{font-size:20px}h2{font-size:17px;margin-top:36px}h3{font-size:14px;margin:14px 0 4px}
 pre{background:#f5f5f5;padding:10px;overflow-x:auto;font-size:13px}
-.slider{position:relative;max-width:100%;display:inline-block;line-height:0}
+.pair{display:inline-block;max-width:100%}.slider{position:relative;line-height:0;touch-action:none;user-select:none}
 .slider img,.map img{max-width:100%;image-rendering:auto}
-.slider .over{position:absolute;left:0;top:0;width:100%;height:100%;clip-path:inset(0 50% 0 0)}
+.slider img{pointer-events:none}.slider .over{position:absolute;left:0;top:0;width:100%;height:100%;clip-path:inset(0 50% 0 0)}
 .slider .line{position:absolute;top:0;bottom:0;left:50%;width:2px;background:#fff;box-shadow:0 0 3px #000;pointer-events:none}
 .slider b{position:absolute;top:8px;font:600 13px/1 system-ui;color:#fff;text-shadow:0 0 3px #000,0 0 3px #000}
 input[type=range]{width:100%;margin:6px 0 0}
@@ -245,7 +245,8 @@ void HtmlReport::add(const ComparedPair& pair) {
     const bool is_color = pair.result.kind == PictureKind::light || pair.result.kind == PictureKind::display;
     const Views v = is_color ? color_views(pair) : value_views(pair);
     std::string html = fmt::format(
-        "<h2>{}</h2><div><div class=\"slider\"><img alt=\"B\" src=\"{}\"><img alt=\"A\" class=\"over\" src=\"{}\">"
+        "<h2>{}</h2><div class=\"pair\"><div class=\"slider\"><img alt=\"B\" src=\"{}\"><img alt=\"A\" class=\"over\" "
+        "src=\"{}\">"
         "<span class=\"line\"></span><b style=\"left:8px\">A</b><b style=\"right:8px\">B</b></div>"
         "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"A to the left, B to the "
         "right\">"

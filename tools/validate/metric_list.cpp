@@ -55,6 +55,18 @@ const MetricInfo& metric_info(const std::string& name) {
     throw usage_error("--fail", fmt::format("does not know this metric (got \"{}\", expected {})", name, names));
 }
 
+std::string metric_definitions() {
+    std::string text;
+    for (const MetricInfo& info : metric_list()) {
+        std::string definition = info.definition;
+        const std::string indent(18, ' ');
+        for (size_t at = 0; (at = definition.find('\n', at)) != std::string::npos; at += indent.size() + 1)
+            definition.insert(at + 1, indent);
+        text += fmt::format("  {:<16}{}\n", info.name, definition);
+    }
+    return text;
+}
+
 MetricLimit parse_limit(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos)

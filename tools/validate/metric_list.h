@@ -20,6 +20,9 @@ const std::vector<MetricInfo>& metric_list();
 /// Throws Error (usage) for a name that is not in the list, with why LPIPS and FID are not.
 const MetricInfo& metric_info(const std::string& name);
 
+/// Names and definitions as text, a metric per paragraph.
+std::string metric_definitions();
+
 /// Values by name, in the order of the list; only those that are defined for the picture.
 using Metrics = std::vector<std::pair<std::string, double>>;
 
