@@ -1,137 +1,69 @@
 #include "renderer/scene/light_tree.h"
 
-#include "renderer/core/units.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 
 namespace pluvia {
-namespace {
 
-float safe_sin(float cosine) {
-    return std::sqrt(std::max(0.0f, 1 - cosine * cosine));
-}
-float safe_acos(float cosine) {
-    return std::acos(std::clamp(cosine, -1.0f, 1.0f));
-}
+/// A node of the binary tree from which the wide one is made.
+struct LightTree::Branch {
+    LightBounds bounds;
+    int light = -1;  // of a leaf
+    std::unique_ptr<Branch> first, second;
+};
 
-/// cos(max(0, a - b)) from the sines and cosines of a and b.
-float cos_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
-}
-float sin_difference(float sin_a, float cos_a, float sin_b, float cos_b) {
-    return cos_a > cos_b ? 0.0f : sin_a * cos_b - cos_a * sin_b;
-}
-
-/// Smallest cone around two cones of directions; Pharr et al. 2023, 3.8.4.
-void unite_cones(LightBounds& a, const LightBounds& b) {
-    const float angle_a = safe_acos(a.cos_spread), angle_b = safe_acos(b.cos_spread);
-    const float between = safe_acos(dot(a.axis, b.axis));
-    if (std::min(between + angle_b, pi) <= angle_a) return;
-    if (std::min(between + angle_a, pi) <= angle_b) {
-        a.axis = b.axis, a.cos_spread = b.cos_spread;
-        return;
-    }
-    const float angle = (angle_a + between + angle_b) / 2;
-    const Vec3 perpendicular = cross(a.axis, b.axis);
-    if (angle >= pi || length_squared(perpendicular) < 1e-12f) {
-        a.cos_spread = -1;
-        return;
-    }
-    const Vec3 side = normalize(cross(perpendicular, a.axis));
-    const float turn = angle - angle_a;
-    a.axis = normalize(a.axis * std::cos(turn) + side * std::sin(turn));
-    a.cos_spread = std::cos(angle);
-}
-
-LightBounds unite(LightBounds a, const LightBounds& b) {
-    if (a.power == 0) return b;
-    if (b.power == 0) return a;
-    unite_cones(a, b);
-    a.cos_emission = std::min(a.cos_emission, b.cos_emission);
-    a.two_sided = a.two_sided || b.two_sided;
-    a.lower = min(a.lower, b.lower), a.upper = max(a.upper, b.upper);
-    a.power += b.power;
-    return a;
-}
-
-/// Cost of splitting: power times the solid angle of emission times the surface of the box.
-float split_cost(const LightBounds& b) {
-    if (b.power == 0) return 0;
-    const float spread = safe_acos(b.cos_spread), emission = safe_acos(b.cos_emission);
-    const float whole = std::min(spread + emission, pi), sin_spread = safe_sin(b.cos_spread);
-    const float solid_angle =
-        2 * pi * (1 - b.cos_spread) +
-        pi / 2 * (2 * whole * sin_spread - std::cos(spread - 2 * whole) - 2 * spread * sin_spread + b.cos_spread);
-    const Vec3 d = b.upper - b.lower;
-    return b.power * solid_angle * (d.x * d.y + d.y * d.z + d.z * d.x);
-}
-
-}  // namespace
-
-LightTree::Cluster LightTree::make_cluster(const LightBounds& b) {
-    return {b.centre(),
-            b.axis,
-            0.25f * length_squared(b.upper - b.lower),
-            b.cos_spread,
-            safe_sin(b.cos_spread),
-            b.cos_emission,
-            b.power,
-            b.two_sided};
-}
-
-/// Upper estimate of the light that reaches the receiver from somewhere in the bounds; 0 only where none can.
+/// Upper estimates of the light that reaches the receiver from somewhere in each child; 0 only where none can.
 /// Source: Conty Estevez and Kulla 2018, section 4.3 (without their reflectance term).
-float LightTree::importance(const Cluster& light, const Receiver& receiver) {
-    const Vec3 to_receiver = receiver.position - light.centre;
-    const float distance_squared = length_squared(to_receiver);
-    // Inside and near the bounds 1/d2 means nothing: the box's own size takes over.
-    const bool inside = distance_squared <= light.radius_squared;
-    float result = light.power / std::max(std::max(distance_squared, light.radius_squared), 1e-12f);
-    if (inside) return result;
+/// Free of branches, so that a compiler turns the loop into vector instructions.
+LightTree::Lanes LightTree::importances(const Node& n, const Receiver& receiver) {
+    const bool has_normal = length_squared(receiver.normal) > 0;
+    Lanes result;
+    for (int i = 0; i < width; ++i) {
+        const float x = receiver.position.x - n.centre_x[i], y = receiver.position.y - n.centre_y[i],
+                    z = receiver.position.z - n.centre_z[i];
+        const float distance_squared = x * x + y * y + z * z;
+        // Inside and near the bounds 1/d2 means nothing: the box's own size takes over.
+        const float reach_squared = std::max(std::max(distance_squared, n.radius_squared[i]), 1e-12f);
+        const float arriving = n.power[i] / reach_squared;
 
-    const Vec3 wi = to_receiver / std::sqrt(distance_squared);
-    // Cone under which the bounds are seen, as a half angle around wi.
-    const float sin_seen_squared = light.radius_squared / distance_squared;
-    const float sin_seen = std::sqrt(sin_seen_squared), cos_seen = std::sqrt(1 - sin_seen_squared);
-    if (light.cos_spread > -1) {
-        float cos_axis = dot(light.axis, wi);
-        if (light.two_sided) cos_axis = std::abs(cos_axis);
-        const float sin_axis = safe_sin(cos_axis);
-        const float cos_x = cos_difference(sin_axis, cos_axis, light.sin_spread, light.cos_spread);
-        const float sin_x = sin_difference(sin_axis, cos_axis, light.sin_spread, light.cos_spread);
-        const float cos_emitted = cos_difference(sin_x, cos_x, sin_seen, cos_seen);
-        if (cos_emitted <= light.cos_emission - 1e-5f) return 0;
-        result *= std::max(cos_emitted, 1e-3f);
-    }
-    if (length_squared(receiver.normal) > 0) {
-        const float cos_normal = -dot(wi, receiver.normal);
-        const float cos_received = cos_difference(safe_sin(cos_normal), cos_normal, sin_seen, cos_seen);
-        if (cos_received < -1e-5f) return 0;
-        result *= std::max(cos_received, 1e-3f);
+        const float inverse_distance = 1 / std::sqrt(std::max(distance_squared, 1e-30f));
+        // Cone under which the bounds are seen, as a half angle around the direction to the receiver.
+        const float sin_seen_squared = n.radius_squared[i] / reach_squared;
+        const float sin_seen = std::sqrt(sin_seen_squared), cos_seen = std::sqrt(1 - sin_seen_squared);
+
+        // Angle between axis and receiver, less the spread, less the cone: cos(max(0, a - b)), twice.
+        const float cos_along = (n.axis_x[i] * x + n.axis_y[i] * y + n.axis_z[i] * z) * inverse_distance;
+        const float cos_axis = n.two_sided[i] > 0 ? std::abs(cos_along) : cos_along;
+        const float sin_axis = std::sqrt(std::max(0.0f, 1 - cos_axis * cos_axis));
+        const bool in_spread = cos_axis > n.cos_spread[i];
+        const float cos_off = in_spread ? 1.0f : cos_axis * n.cos_spread[i] + sin_axis * n.sin_spread[i];
+        const float sin_off = in_spread ? 0.0f : sin_axis * n.cos_spread[i] - cos_axis * n.sin_spread[i];
+        const float cos_emitted = cos_off > cos_seen ? 1.0f : cos_off * cos_seen + sin_off * sin_seen;
+        const float emitted = cos_emitted <= n.cos_emission[i] - 1e-5f ? 0.0f : std::max(cos_emitted, 1e-3f);
+
+        const float cos_normal =
+            -(receiver.normal.x * x + receiver.normal.y * y + receiver.normal.z * z) * inverse_distance;
+        const float sin_normal = std::sqrt(std::max(0.0f, 1 - cos_normal * cos_normal));
+        const float cos_received = cos_normal > cos_seen ? 1.0f : cos_normal * cos_seen + sin_normal * sin_seen;
+        const float received = cos_received < -1e-5f ? 0.0f : std::max(cos_received, 1e-3f);
+
+        const bool inside = distance_squared <= n.radius_squared[i];
+        const float cosines = (n.cos_spread[i] > -1 ? emitted : 1.0f) * (has_normal ? received : 1.0f);
+        result[i] = inside ? arriving : arriving * cosines;
     }
     return result;
 }
 
-LightTree::LightTree(const std::vector<LightBounds>& lights) : leaf_of_light_(lights.size(), -1) {
+LightTree::LightTree(const std::vector<LightBounds>& lights) : place_of_light_(lights.size()) {
     std::vector<std::pair<int, LightBounds>> powered;
     for (size_t i = 0; i < lights.size(); ++i)
         if (lights[i].power > 0) powered.emplace_back(int(i), lights[i]);
-    if (powered.empty()) return;
-    nodes_.reserve(2 * powered.size());
-    build(powered, 0, int(powered.size()), -1);
+    if (!powered.empty()) add_node(build(powered, 0, int(powered.size())), -1, 0);
 }
 
-LightBounds LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end, int parent) {
-    const int index = int(nodes_.size());
-    nodes_.emplace_back().parent = parent;
-    if (end - begin == 1) {
-        nodes_[index].cluster = make_cluster(lights[begin].second);
-        nodes_[index].light = lights[begin].first;
-        leaf_of_light_[lights[begin].first] = index;
-        return lights[begin].second;
-    }
+LightTree::Branch LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end) {
+    if (end - begin == 1) return {lights[begin].second, lights[begin].first, nullptr, nullptr};
     Vec3 lower(1e30f, 1e30f, 1e30f), upper = -lower;
     for (int i = begin; i < end; ++i) {
         lower = min(lower, lights[i].second.centre());
@@ -169,44 +101,86 @@ LightBounds LightTree::build(std::vector<std::pair<int, LightBounds>>& lights, i
                                   [&](const auto& light) { return bucket_of(light.second, best_axis) < best_bucket; });
         middle = int(first_above - lights.begin());
     }
-    const LightBounds first = build(lights, begin, middle, index);
-    nodes_[index].second_child = int(nodes_.size());
-    const LightBounds whole = unite(first, build(lights, middle, end, index));
-    nodes_[index].cluster = make_cluster(whole);
+    Branch whole;
+    whole.first = std::make_unique<Branch>(build(lights, begin, middle));
+    whole.second = std::make_unique<Branch>(build(lights, middle, end));
+    whole.bounds = unite(whole.first->bounds, whole.second->bounds);
     return whole;
+}
+
+/// Opens the costliest branches until the node is full.
+void LightTree::add_node(const Branch& branch, int parent, int place_in_parent) {
+    std::vector<const Branch*> children = {&branch};
+    while (children.size() < width) {
+        const Branch** costliest = nullptr;
+        for (const Branch*& c : children)
+            if (c->first && (!costliest || split_cost(c->bounds) > split_cost((*costliest)->bounds))) costliest = &c;
+        if (!costliest) break;
+        const Branch* opened = *costliest;
+        *costliest = opened->first.get();
+        children.push_back(opened->second.get());
+    }
+
+    const int index = int(nodes_.size());
+    Node node;
+    node.parent = parent, node.place_in_parent = place_in_parent;
+    for (size_t i = 0; i < children.size(); ++i) {
+        const LightBounds& b = children[i]->bounds;
+        const Vec3 centre = b.centre();
+        node.centre_x[i] = centre.x, node.centre_y[i] = centre.y, node.centre_z[i] = centre.z;
+        node.axis_x[i] = b.axis.x, node.axis_y[i] = b.axis.y, node.axis_z[i] = b.axis.z;
+        node.radius_squared[i] = 0.25f * length_squared(b.upper - b.lower);
+        node.cos_spread[i] = b.cos_spread;
+        node.sin_spread[i] = std::sqrt(std::max(0.0f, 1 - b.cos_spread * b.cos_spread));
+        node.cos_emission[i] = b.cos_emission;
+        node.two_sided[i] = b.two_sided ? 1.0f : 0.0f;
+        node.power[i] = b.power;
+        node.child[i] = ~children[i]->light;
+        if (!children[i]->first) place_of_light_[children[i]->light] = {index, int(i)};
+    }
+    nodes_.push_back(node);
+    for (size_t i = 0; i < children.size(); ++i) {
+        if (!children[i]->first) continue;
+        nodes_[index].child[i] = int(nodes_.size());
+        add_node(*children[i], index, int(i));
+    }
 }
 
 std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, float u) const {
     if (nodes_.empty()) return std::nullopt;
-    int index = 0;
     float probability = 1;
-    if (importance(nodes_[0].cluster, receiver) == 0) return std::nullopt;
-    while (nodes_[index].second_child >= 0) {
-        const int first = index + 1, second = nodes_[index].second_child;
-        const float a = importance(nodes_[first].cluster, receiver), b = importance(nodes_[second].cluster, receiver);
-        if (a + b == 0) return std::nullopt;
-        const float share = a / (a + b);
-        if (u < share) {
-            index = first, probability *= share;
-            u = std::min(u / share, 0x1.fffffep-1f);
-        } else {
-            index = second, probability *= 1 - share;
-            u = std::min((u - share) / (1 - share), 0x1.fffffep-1f);
+    for (const Node* node = nodes_.data();;) {
+        const Lanes importance = importances(*node, receiver);
+        float total = 0;
+        for (const float i : importance) total += i;
+        if (!(total > 0)) return std::nullopt;
+        int lane = -1;
+        float left = u * total;
+        for (int i = 0; i < width; ++i) {
+            if (importance[i] == 0) continue;
+            lane = i;  // rounding may carry u beyond the sum: then it is the last child that counts
+            if (left < importance[i]) break;
+            left -= importance[i];
         }
+        probability *= importance[lane] / total;
+        if (node->child[lane] < 0) return Choice{~node->child[lane], probability};
+        u = std::clamp(left / importance[lane], 0.0f, 0x1.fffffep-1f);
+        node = &nodes_[node->child[lane]];
     }
-    return Choice{nodes_[index].light, probability};
 }
 
 float LightTree::probability(const Receiver& receiver, int light) const {
-    int index = leaf_of_light_[light];
-    if (index < 0 || importance(nodes_[0].cluster, receiver) == 0) return 0;
+    auto [index, lane] = place_of_light_[light];
+    if (index < 0) return 0;
     float probability = 1;
-    for (int parent = nodes_[index].parent; parent >= 0; index = parent, parent = nodes_[index].parent) {
-        const float a = importance(nodes_[parent + 1].cluster, receiver);
-        const float b = importance(nodes_[nodes_[parent].second_child].cluster, receiver);
-        if (a + b == 0) return 0;
-        const float share = a / (a + b);
-        probability *= index == parent + 1 ? share : 1 - share;
+    while (index >= 0) {
+        const Node& node = nodes_[index];
+        const Lanes importance = importances(node, receiver);
+        float total = 0;
+        for (const float i : importance) total += i;
+        if (!(total > 0)) return 0;
+        probability *= importance[lane] / total;
+        index = node.parent, lane = node.place_in_parent;
     }
     return probability;
 }

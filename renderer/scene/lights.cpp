@@ -84,7 +84,8 @@ void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
             b.two_sided = two_sided;
             b.power = (two_sided ? 2 : 1) * pi * float(area) * mean_emission(*scene_, instance, k);
         }
-        triangles_.push_back({instance, k});
+        triangles_.push_back(
+            {instance, k, Vec3(corner[0]), Vec3(corner[1] - corner[0]), Vec3(corner[2] - corner[0]), Vec3(normal)});
         all.push_back(b);
     }
 }
@@ -109,17 +110,14 @@ std::optional<LightSample> Lights::sample_local(const Receiver& receiver, float 
 LightSample Lights::sample_triangle_light(const Receiver& receiver, int light, float probability, Vec2 u) const {
     const EmissiveTriangle& triangle = triangles_[light];
     const Vec2 b = sample_triangle(u);
-    const auto corner = corners(*scene_, triangle.instance, triangle.triangle);
-    const Vec3d p = corner[0] * (1.0 - b.x - b.y) + corner[1] * double(b.x) + corner[2] * double(b.y);
-    const Vec3d normal = front_normal(*scene_, triangle.instance, triangle.triangle);
-    const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
+    const Vec3 to_light = triangle.point(b.x, b.y) - receiver.position;
     const float distance_squared = length_squared(to_light), distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
-    // dA to solid angle; |normal| is twice the area, so the cosine and the area are both in this product.
-    const float projected_area = 0.5f * std::abs(dot(Vec3(normal), wi));
+    // dA to solid angle; |front| is twice the area, so the cosine and the area are both in this product.
+    const float projected_area = 0.5f * std::abs(dot(triangle.front, wi));
     const SurfacePoint point{triangle.instance, triangle.triangle, b.x, b.y};
     const Material& material = scene_->materials[scene_->meshes[scene_->instances[triangle.instance].mesh].material];
-    const bool dark_side = dot(Vec3(normal), wi) > 0 && !material.double_sided;
+    const bool dark_side = dot(triangle.front, wi) > 0 && !material.double_sided;
     if (dark_side || projected_area == 0 || distance_squared == 0) return {wi, distance, Rgb(0), 1, false};
     return {wi, distance, emission(*scene_, point) * opacity(*scene_, point),
             probability * distance_squared / projected_area, false};
@@ -128,14 +126,11 @@ LightSample Lights::sample_triangle_light(const Receiver& receiver, int light, f
 float Lights::pdf_local(const Receiver& receiver, const SurfacePoint& point) const {
     const int first = first_light_of_instance_[point.instance];
     if (first < 0) return 0;
-    const float probability = tree_.probability(receiver, int(punctual_.size()) + first + point.triangle);
-    const auto corner = corners(*scene_, point.instance, point.triangle);
-    const Vec3d p =
-        corner[0] * (1.0 - point.b1 - point.b2) + corner[1] * double(point.b1) + corner[2] * double(point.b2);
-    const Vec3 to_light = Vec3(p - Vec3d(receiver.position));
+    const EmissiveTriangle& triangle = triangles_[first + point.triangle];
+    const Vec3 to_light = triangle.point(point.b1, point.b2) - receiver.position;
     const float distance_squared = length_squared(to_light);
-    const float projected_area = 0.5f * std::abs(dot(Vec3(cross(corner[1] - corner[0], corner[2] - corner[0])),
-                                                     to_light / std::sqrt(distance_squared)));
+    const float projected_area = 0.5f * std::abs(dot(triangle.front, to_light / std::sqrt(distance_squared)));
+    const float probability = tree_.probability(receiver, int(punctual_.size()) + first + point.triangle);
     return projected_area > 0 ? probability * distance_squared / projected_area : 0;
 }
 

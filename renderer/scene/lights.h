@@ -43,6 +43,10 @@ public:
 private:
     struct EmissiveTriangle {
         int instance, triangle;
+        Vec3 corner, edge1, edge2;  // in the scene's coordinates
+        Vec3 front;                 // twice the area, on the side that emits
+
+        Vec3 point(float b1, float b2) const { return corner + edge1 * b1 + edge2 * b2; }
     };
     void add_punctual(const PunctualLight& light, std::vector<LightBounds>& all);
     void add_triangles(int instance, std::vector<LightBounds>& all);
