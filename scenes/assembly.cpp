@@ -20,8 +20,8 @@ MapTextures add_textures(Scene& scene, SurfaceMaps maps, Wrap wrap) {
 }
 
 int add_finish(Street& street, Material material, const MapTextures& textures, Vec2 picture_size) {
-    const auto fill = [](int& slot, int texture) {
-        if (slot < 0) slot = texture;
+    const auto fill = [](TextureSlot& slot, int texture) {
+        if (!slot.used()) slot = texture;
     };
     fill(material.base_color_texture, textures.base_color);
     fill(material.metallic_roughness_texture, textures.metallic_roughness);

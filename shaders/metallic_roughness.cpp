@@ -19,6 +19,13 @@ Rgb multiple_scattering(Rgb f0, float f90, float average_lost) {
             multiple_scattering(f0.b, f90, average_lost)};
 }
 
+/// Of the dielectric at normal incidence. Source: KHR_materials_specular, "Implementation".
+Rgb coat_reflectance(const MetallicRoughness& m) {
+    const float f0 = normal_reflectance(m.ior);
+    const Rgb c = m.specular_color * f0;
+    return Rgb(std::min(c.r, 1.0f), std::min(c.g, 1.0f), std::min(c.b, 1.0f)) * m.specular;
+}
+
 }  // namespace
 
 // The glTF material is mix(dielectric, metal, metallic). Both share one microfacet distribution and reflect linearly in
@@ -37,8 +44,10 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo) {
     }
     if (wo.z <= 0) return seen;
 
-    const float coat_f0 = material.specular * normal_reflectance(material.ior), coat_f90 = material.specular;
-    seen.f0 = mix(Rgb(coat_f0), material.base_color, material.metallic);
+    const float coat_f90 = material.specular;
+    const Rgb coat_color = coat_reflectance(material);
+    const float coat_f0 = max_component(coat_color);
+    seen.f0 = mix(coat_color, material.base_color, material.metallic);
     seen.f90 = coat_f90 + (1 - coat_f90) * material.metallic;
     const float roughness = std::max(min_roughness, material.roughness);
     seen.ggx = Ggx(roughness * roughness);
@@ -47,8 +56,10 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo) {
     const GgxAlbedo albedo = seen.albedo.at(wo.z), average = average_ggx_albedo(roughness);
 
     const float coat_multiple = multiple_scattering(coat_f0, coat_f90, average.lost);
+    const Rgb coat_multiple_color =
+        coat_color == Rgb(coat_f0) ? Rgb(coat_multiple) : multiple_scattering(coat_color, coat_f90, average.lost);
     const Rgb metal_multiple = multiple_scattering(material.base_color, 1, average.lost);
-    seen.multiple = mix(Rgb(coat_multiple), metal_multiple, material.metallic) * (albedo.lost / (pi * average.lost));
+    seen.multiple = mix(coat_multiple_color, metal_multiple, material.metallic) * (albedo.lost / (pi * average.lost));
 
     // E_d = f0 (1 - lost - grazing) + f90 grazing + multiple lost.
     seen.coat_constant = coat_f0;

@@ -1,6 +1,8 @@
 // The metallic-roughness material of glTF: a rough metal, or a rough dielectric coat over a diffuse base, or a mixture
 // of the two by `metallic`. All are reciprocal; nothing is lost to missing multiple scattering: with a white base
-// colour the surface reflects all it receives. Conventions: bsdf_sample.h; the microfacet distribution: microfacet.h.
+// colour the surface reflects all it receives, unless its dielectric reflection is coloured: what reaches the base is
+// what the strongest channel leaves, so that the base is not seen in the complementary colour (KHR_materials_specular).
+// Conventions: bsdf_sample.h; the microfacet distribution: microfacet.h.
 #pragma once
 
 #include "shaders/bsdf_sample.h"
@@ -15,7 +17,8 @@ struct MetallicRoughness {
     float metallic = 0;       // share of the surface that is metal, 0 to 1
     float roughness = 1;      // perceptual, 0 to 1; its square is the width alpha of the microfacet distribution
     float specular = 1;       // strength of the dielectric reflection (KHR_materials_specular), 0 to 1; 0: pure Lambert
-    float ior = 1.5f;         // of the dielectric coat, >= 1
+    Rgb specular_color = Rgb(1);  // of that reflection at normal incidence, >= 0
+    float ior = 1.5f;             // of the dielectric coat, >= 1
 };
 
 /// A MetallicRoughness seen from one direction: what depends on wo alone is computed once for all wi.

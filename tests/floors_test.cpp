@@ -42,6 +42,7 @@ const std::map<std::string, std::string> doors = {
     {"Imf", "renderer/image/exr"},
     {"Imath", "renderer/image/exr"},
     {"OpenColorIO", "renderer/image/color"},
+    {"webp/", "renderer/image/webp"},
     {"CLI/", "tools/"},
     {"yaml-cpp", "tools/config"},
     {"torch/", "tools/learning/"},

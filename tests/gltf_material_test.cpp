@@ -28,8 +28,11 @@ void check_is_default(const Material& m) {
     CHECK(m.ior == 1.5f);
     CHECK(m.transmission == 0);
     CHECK(m.emission == Rgb(0));
-    for (const int texture : {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
-        CHECK(texture == -1);
+    CHECK(m.specular_color == Rgb(1));
+    Material::for_each_slot(m, [](const TextureSlot& slot, const char* name) {
+        CAPTURE(name);
+        CHECK_FALSE(slot.used());
+    });
     CHECK(m.normal_scale == 1);
     CHECK(m.alpha_mode == AlphaMode::opaque);
     CHECK(m.alpha_cutoff == 0.5f);
@@ -153,30 +156,34 @@ TEST_CASE("samplers give wrapping and filter of a texture") {
 }
 
 TEST_CASE("texture slots refer to their textures, and what a slot cannot have is named") {
-    const Json transform = {{"KHR_texture_transform", {{"scale", {2, 2}}}}};
-    GltfDraft draft = draft_with({{"name", "wall"},
-                                  {"pbrMetallicRoughness",
-                                   {{"baseColorTexture", {{"index", 0}, {"extensions", transform}}},
-                                    {"metallicRoughnessTexture", {{"index", 1}}}}},
-                                  {"normalTexture", {{"index", 2}, {"scale", 0.5}, {"texCoord", 1}}},
-                                  {"emissiveTexture", {{"index", 3}}},
-                                  {"extensions", {{"KHR_materials_specular", {{"specularTexture", {{"index", 0}}}}}}}});
-    draft.root["extensionsUsed"] = {"KHR_texture_transform"};
+    GltfDraft draft = draft_with(
+        {{"name", "wall"},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"normalTexture", {{"index", 2}, {"scale", 0.5}, {"texCoord", 1}}},
+         {"emissiveTexture", {{"index", 3}, {"texCoord", 2}}},
+         {"extensions",
+          {{"KHR_materials_specular",
+            {{"specularTexture", {{"index", 4}, {"texCoord", 1}}},
+             {"specularColorFactor", {0.5, 0.25, 2}},
+             {"specularColorTexture", {{"index", 5}}}}},
+           {"KHR_materials_transmission", {{"transmissionTexture", {{"index", 6}}}}}}}});
     draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
-    for (int i = 0; i < 4; ++i) draft.add("textures", {{"source", 0}});
+    for (int i = 0; i < 7; ++i) draft.add("textures", {{"source", 0}});
     const Scene scene = load(draft);
     const Material& m = scene.materials[0];
     CHECK(m.base_color_texture == 0);
     CHECK(m.metallic_roughness_texture == 1);
-    CHECK(m.normal_texture == 2);
+    CHECK(m.normal_texture.texture == 2);
+    CHECK(m.normal_texture.uv_set == 1);
     CHECK(m.normal_scale == 0.5f);
     CHECK(m.emission_texture == 3);
-    for (const char* text :
-         {"extension KHR_texture_transform", "material \"wall\": KHR_texture_transform of its base colour texture",
-          "material \"wall\": its normal texture uses TEXCOORD_1", "specularTexture of KHR_materials_specular"}) {
-        CAPTURE(text);
-        CHECK(warns(scene, text));
-    }
+    CHECK(m.specular_texture.texture == 4);
+    CHECK(m.specular_texture.uv_set == 1);
+    CHECK(m.specular_color == Rgb(0.5f, 0.25f, 2));
+    CHECK(m.specular_color_texture == 5);
+    CHECK(m.transmission_texture == 6);
+    CHECK(scene.warnings.size() == 1);
+    CHECK(warns(scene, "material \"wall\": its emissiveTexture uses TEXCOORD_2"));
 }
 
 TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {

@@ -28,6 +28,13 @@ Scene scene_of_everything() {
     m.specular = 0.6f, m.ior = 1.33f, m.transmission = 0.7f;
     m.emission = {900, 300, 0.5f};
     m.base_color_texture = 0, m.metallic_roughness_texture = 1, m.normal_texture = 1, m.emission_texture = 0;
+    m.specular_color = {0.5f, 2, 0.25f};
+    m.specular_texture = 1, m.specular_color_texture = 0, m.transmission_texture = 1;
+    m.normal_texture.uv_set = m.specular_texture.uv_set = 1;
+    for (TextureSlot* slot : {&m.base_color_texture, &m.specular_color_texture}) {
+        slot->has_transform = true;
+        slot->transform = uv_transform({0.25f, -1}, 0.5f, {2, -3});
+    }
     m.normal_scale = 0.5f;
     m.alpha_mode = AlphaMode::mask, m.alpha_cutoff = 0.3f;
     m.double_sided = true;
@@ -80,6 +87,24 @@ bool close(Vec3d a, Vec3d b) {
     return length(a - b) < 1e-8;
 }
 
+void check_slots(const Material& a, const Material& b) {
+    std::vector<TextureSlot> expected;
+    Material::for_each_slot(a, [&](const TextureSlot& slot, const char*) { expected.push_back(slot); });
+    size_t i = 0;
+    Material::for_each_slot(b, [&](const TextureSlot& slot, const char* name) {
+        CAPTURE(name);
+        const TextureSlot& e = expected[i++];
+        CHECK(slot.texture == e.texture);
+        CHECK(slot.uv_set == e.uv_set);
+        CHECK(slot.has_transform == e.has_transform);
+        // Written as angle and scale: a few roundings.
+        for (const Vec2 uv : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}}) {
+            CHECK(std::abs(slot.transform(uv).x - e.transform(uv).x) < 1e-6f);
+            CHECK(std::abs(slot.transform(uv).y - e.transform(uv).y) < 1e-6f);
+        }
+    });
+}
+
 }  // namespace
 
 TEST_CASE("a scene comes back from its .glb with every setting of its materials") {
@@ -101,10 +126,8 @@ TEST_CASE("a scene comes back from its .glb with every setting of its materials"
         CHECK(a.ior == b.ior);
         CHECK(a.transmission == b.transmission);
         CHECK(close(a.emission, b.emission));
-        CHECK(a.base_color_texture == b.base_color_texture);
-        CHECK(a.metallic_roughness_texture == b.metallic_roughness_texture);
-        CHECK(a.normal_texture == b.normal_texture);
-        CHECK(a.emission_texture == b.emission_texture);
+        CHECK(a.specular_color == b.specular_color);
+        check_slots(a, b);
         CHECK(a.normal_scale == b.normal_scale);
         CHECK(a.alpha_mode == b.alpha_mode);
         CHECK(a.alpha_cutoff == b.alpha_cutoff);

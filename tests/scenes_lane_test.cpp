@@ -42,9 +42,9 @@ TEST_CASE("the lane has some tens of thousands of triangles and passes the scene
 TEST_CASE("every picture of the lane is whole and used by a material, every material by a mesh") {
     std::vector<bool> used(lane().textures.size());
     for (const Material& m : lane().materials)
-        for (const int slot :
-             {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
-            if (slot >= 0) used.at(size_t(slot)) = true;
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) {
+            if (slot.used()) used.at(size_t(slot.texture)) = true;
+        });
     CHECK(std::count(used.begin(), used.end(), false) == 0);
     for (size_t i = 0; i < lane().materials.size(); ++i) {
         CAPTURE(lane().materials[i].name);

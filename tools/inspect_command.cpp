@@ -29,8 +29,10 @@ Json features(const Scene& scene) {
     Json j;
     int textured = 0, normal_mapped = 0, masked = 0, blended = 0, emissive = 0, panes = 0, colored = 0;
     for (const Material& m : scene.materials) {
-        textured += m.base_color_texture >= 0 || m.metallic_roughness_texture >= 0 || m.emission_texture >= 0;
-        normal_mapped += m.normal_texture >= 0;
+        bool any = false;
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) { any = any || slot.used(); });
+        textured += any;
+        normal_mapped += m.normal_texture.used();
         masked += m.alpha_mode == AlphaMode::mask;
         blended += m.alpha_mode == AlphaMode::blend;
         emissive += m.emits();

@@ -4,6 +4,7 @@
 #include "renderer/image/color.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/pending_file.h"
+#include "renderer/image/webp.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -30,8 +31,11 @@ struct Format {
 // By content, not by name: a picture inside a glTF has none. OpenImageIO's EXR reader is left out because it changes
 // the number of threads under open files of exr.h.
 constexpr Format formats[] = {
-    {"\x89PNG"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"}, {"RIFF"sv, "webp"}, {"#?"sv, "hdr"},  {"II*\0"sv, "tiff"},
-    {"MM\0*"sv, "tiff"},  {"DDS "sv, "dds"},          {"BM"sv, "bmp"},    {"PF"sv, "pnm"},  {"Pf"sv, "pnm"},
+    {"\x89PNG"sv, "png"}, {"\xff\xd8\xff"sv, "jpeg"},
+    {"RIFF"sv, "webp"},   {"#?"sv, "hdr"},
+    {"II*\0"sv, "tiff"},  {"MM\0*"sv, "tiff"},
+    {"DDS "sv, "dds"},    {"BM"sv, "bmp"},
+    {"PF"sv, "pnm"},      {"Pf"sv, "pnm"},
     {"P5"sv, "pnm"},      {"P6"sv, "pnm"},
 };
 
@@ -81,9 +85,9 @@ struct Source {
         if (spec().width < 1 || spec().height < 1 || spec().depth != 1)
             throw input_error(where, "is not a flat picture with pixels");
         check_size(where, spec().width, spec().height, 1);
-        // The library's reader multiplies such colour by alpha whatever it is asked, and rounds it.
+        // The library's reader multiplies such colour by alpha whatever it is asked, and rounds it; see webp.h.
         if (name == "webp"sv && spec().nchannels == 4)
-            throw input_error(where, "is a WebP picture with alpha, which is not supported (expected PNG)");
+            throw input_error(where, "is a WebP picture with alpha, which is not supported here (expected PNG)");
     }
 
     const OIIO::ImageSpec& spec() const { return input->spec(); }
@@ -100,7 +104,9 @@ struct Source {
     }
 };
 
-bool is_float(const OIIO::ImageSpec& spec) { return spec.format.is_floating_point(); }
+bool is_float(const OIIO::ImageSpec& spec) {
+    return spec.format.is_floating_point();
+}
 
 Image<Rgb> read_radiance_exr(const std::string& path) {
     ExrReader reader(path);
@@ -161,6 +167,11 @@ ImageInfo read_image_info(const std::string& path) {
 }
 
 Image<Rgba8> decode_rgba8(std::span<const std::byte> bytes, const std::string& where) {
+    if (format_name(bytes, where) == "webp"sv) {
+        const WebpSize size = read_webp_size(bytes, where);
+        check_size(where, size.width, size.height, sizeof(Rgba8));
+        return decode_webp(bytes, where);
+    }
     Source source(bytes, where);
     const int count = std::min(4, source.spec().nchannels);
     const std::vector<uint8_t> values = source.read<uint8_t>(count);
@@ -173,7 +184,9 @@ Image<Rgba8> decode_rgba8(std::span<const std::byte> bytes, const std::string& w
     return image;
 }
 
-Image<Rgba8> read_rgba8(const std::string& path) { return decode_rgba8(read_file(path), path); }
+Image<Rgba8> read_rgba8(const std::string& path) {
+    return decode_rgba8(read_file(path), path);
+}
 
 Image<uint16_t> read_grey16(const std::string& path) {
     const std::vector<std::byte> bytes = read_file(path);
@@ -278,8 +291,12 @@ PngWriter::PngWriter(const std::string& path, int width, int height, int channel
 
 PngWriter::~PngWriter() = default;
 
-void PngWriter::write_rows(int y, int count, const uint8_t* values) { state_->write_rows(y, count, values); }
-void PngWriter::write_rows(int y, int count, const uint16_t* values) { state_->write_rows(y, count, values); }
+void PngWriter::write_rows(int y, int count, const uint8_t* values) {
+    state_->write_rows(y, count, values);
+}
+void PngWriter::write_rows(int y, int count, const uint16_t* values) {
+    state_->write_rows(y, count, values);
+}
 
 void PngWriter::finish() {
     State& s = *state_;

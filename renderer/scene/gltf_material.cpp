@@ -1,9 +1,8 @@
 #include "renderer/scene/gltf_material.h"
 
-#include "renderer/core/error.h"
-#include "renderer/image/image_io.h"
-#include "renderer/scene/gltf_accessor.h"
 #include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_texture.h"
+#include "renderer/scene/gltf_value.h"
 
 #include <fmt/format.h>
 
@@ -12,149 +11,111 @@
 namespace pluvia {
 namespace {
 
+constexpr double max_ior = 1e6;  // reflects all but 4e-6
+
 Rgb rgb_from(const std::vector<double>& v, Rgb otherwise) {
     return v.size() >= 3 ? Rgb(float(v[0]), float(v[1]), float(v[2])) : otherwise;
 }
 
-/// A number inside a material's extension, or the value that the extension gives it when absent.
-double extension_number(const tinygltf::Material& material, const char* extension, const char* key, double otherwise) {
-    const auto found = material.extensions.find(extension);
-    if (found == material.extensions.end() || !found->second.Has(key)) return otherwise;
-    const tinygltf::Value& value = found->second.Get(key);
-    return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
-}
-
-constexpr double max_ior = 1e6;  // reflects all but 4e-6
-
 class MaterialReader {
 public:
-    MaterialReader(const tinygltf::Model& model, const std::string& where, Scene& scene)
-        : model_(model), where_(where), scene_(scene) {}
+    MaterialReader(const tinygltf::Model& model, const tinygltf::Material& source, const std::string& where,
+                   Scene& scene)
+        : source_(source),
+          scene_(scene),
+          slots_{model, where, fmt::format("material \"{}\"", source.name), scene.warnings} {}
 
-    Material read(const tinygltf::Material& source) {
-        Material m;
-        m.name = source.name;
-        m.lamp = is_marked_lamp(source.extras);
-        const auto& pbr = source.pbrMetallicRoughness;
-        m.base_color = rgb_from(pbr.baseColorFactor, Rgb(1));
-        m.alpha = pbr.baseColorFactor.size() == 4 ? in_range(source, "alpha", pbr.baseColorFactor[3], 0, 1) : 1.0f;
-        m.metallic = in_range(source, "metallicFactor", pbr.metallicFactor, 0, 1);
-        m.roughness = in_range(source, "roughnessFactor", pbr.roughnessFactor, 0, 1);
-        m.base_color_texture = texture(source, pbr.baseColorTexture, "base colour");
-        m.metallic_roughness_texture = texture(source, pbr.metallicRoughnessTexture, "metallic-roughness");
-        m.normal_texture = texture(source, source.normalTexture, "normal");
-        m.normal_scale = float(source.normalTexture.scale);
-        const double strength = extension_number(source, "KHR_materials_emissive_strength", "emissiveStrength", 1);
-        if (source.emissiveFactor.size() == 3)
-            m.emission = {emission(source, source.emissiveFactor[0] * strength),
-                          emission(source, source.emissiveFactor[1] * strength),
-                          emission(source, source.emissiveFactor[2] * strength)};
-        m.emission_texture = texture(source, source.emissiveTexture, "emissive");
-        m.specular = in_range(source, "specularFactor",
-                              extension_number(source, "KHR_materials_specular", "specularFactor", 1), 0, 1);
-        const double ior = extension_number(source, "KHR_materials_ior", "ior", 1.5);
-        // 0 stands for a surface that reflects everything (KHR_materials_ior, for converted older materials).
-        m.ior = in_range(source, "ior", ior == 0 ? max_ior : ior, 1, max_ior);
-        m.transmission =
-            in_range(source, "transmissionFactor",
-                     extension_number(source, "KHR_materials_transmission", "transmissionFactor", 0), 0, 1);
-        m.alpha_mode = source.alphaMode == "MASK"    ? AlphaMode::mask
-                       : source.alphaMode == "BLEND" ? AlphaMode::blend
-                                                     : AlphaMode::opaque;
-        m.alpha_cutoff = float(source.alphaCutoff);
-        m.double_sided = source.doubleSided;
-        if (m.transmission > 0 && m.roughness > 0.1f)
-            warn(source, "its transmission is rendered smooth, without its roughness");
-        for (const auto& [name, value] : source.extensions)
-            if (value.IsObject())
-                for (const std::string& key : value.Keys())
-                    if (key.ends_with("Texture")) warn(source, fmt::format("{} of {} is not supported", key, name));
-        return m;
+    Material read() {
+        m_.name = source_.name;
+        m_.lamp = is_marked_lamp(source_.extras);
+        read_core();
+        read_emission();
+        read_specular();
+        read_transmission();
+        return m_;
     }
 
 private:
+    void read_core() {
+        const auto& pbr = source_.pbrMetallicRoughness;
+        m_.base_color = rgb_from(pbr.baseColorFactor, Rgb(1));
+        m_.alpha = pbr.baseColorFactor.size() == 4 ? in_range("alpha", pbr.baseColorFactor[3], 0, 1) : 1.0f;
+        m_.metallic = in_range("metallicFactor", pbr.metallicFactor, 0, 1);
+        m_.roughness = in_range("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        m_.base_color_texture = slots_.read(pbr.baseColorTexture, "baseColorTexture");
+        m_.metallic_roughness_texture = slots_.read(pbr.metallicRoughnessTexture, "metallicRoughnessTexture");
+        m_.normal_texture = slots_.read(source_.normalTexture, "normalTexture");
+        m_.normal_scale = float(source_.normalTexture.scale);
+        m_.alpha_mode = source_.alphaMode == "MASK"    ? AlphaMode::mask
+                        : source_.alphaMode == "BLEND" ? AlphaMode::blend
+                                                       : AlphaMode::opaque;
+        m_.alpha_cutoff = float(source_.alphaCutoff);
+        m_.double_sided = source_.doubleSided;
+    }
+
+    void read_emission() {
+        const double strength = number(find(extension("KHR_materials_emissive_strength"), "emissiveStrength"), 1);
+        if (source_.emissiveFactor.size() == 3)
+            m_.emission = {emission(source_.emissiveFactor[0] * strength),
+                           emission(source_.emissiveFactor[1] * strength),
+                           emission(source_.emissiveFactor[2] * strength)};
+        m_.emission_texture = slots_.read(source_.emissiveTexture, "emissiveTexture");
+    }
+
+    void read_specular() {
+        const auto* specular = extension("KHR_materials_specular");
+        m_.specular = in_range("specularFactor", number(find(specular, "specularFactor"), 1), 0, 1);
+        m_.specular_texture = slots_.read(specular, "specularTexture");
+        const Rgb tint = color(find(specular, "specularColorFactor"), Rgb(1));
+        m_.specular_color = {in_range("specularColorFactor", tint.r, 0, 1e6),
+                             in_range("specularColorFactor", tint.g, 0, 1e6),
+                             in_range("specularColorFactor", tint.b, 0, 1e6)};
+        m_.specular_color_texture = slots_.read(specular, "specularColorTexture");
+        const double ior = number(find(extension("KHR_materials_ior"), "ior"), 1.5);
+        // 0 stands for a surface that reflects everything (KHR_materials_ior, for converted older materials).
+        m_.ior = in_range("ior", ior == 0 ? max_ior : ior, 1, max_ior);
+    }
+
+    void read_transmission() {
+        const auto* transmission = extension("KHR_materials_transmission");
+        m_.transmission = in_range("transmissionFactor", number(find(transmission, "transmissionFactor"), 0), 0, 1);
+        m_.transmission_texture = slots_.read(transmission, "transmissionTexture");
+        if (m_.transmission > 0 && m_.roughness > 0.1f)
+            warn("its transmission is rendered smooth, without its roughness");
+    }
+
+    const tinygltf::Value* extension(const char* name) const { return find(source_.extensions, name); }
+
     /// The value, or the nearest that is allowed and a warning: a surface that reflects more than it receives would
     /// never let a path end.
-    float in_range(const tinygltf::Material& material, const char* name, double value, double lower, double upper) {
+    float in_range(const char* name, double value, double lower, double upper) {
         const double inside = std::clamp(value, lower, upper);
         if (inside != value)
-            warn(material, fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name,
-                                       value, lower, upper, inside));
+            warn(fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name, value,
+                             lower, upper, inside));
         return float(inside);
     }
-    float emission(const tinygltf::Material& material, double luminance) {
-        return in_range(material, "emission", luminance, 0, 1e12);  // cd/m2; the sun has 1.6e9
+    float emission(double luminance) {
+        return in_range("emission", luminance, 0, 1e12);  // cd/m2; the sun has 1.6e9
     }
 
-    template <class Info>
-    int texture(const tinygltf::Material& material, const Info& info, const char* slot) {
-        if (info.index == -1) return -1;
-        if (info.index < 0 || info.index >= int(model_.textures.size()))
-            throw input_error(fmt::format("{}: material \"{}\"", where_, material.name),
-                              fmt::format("its {} texture does not exist (got {}, expected below {})", slot, info.index,
-                                          model_.textures.size()));
-        if (info.texCoord != 0)
-            warn(material,
-                 fmt::format("its {} texture uses TEXCOORD_{}, TEXCOORD_0 is taken instead", slot, info.texCoord));
-        if (info.extensions.count("KHR_texture_transform"))
-            warn(material, fmt::format("KHR_texture_transform of its {} texture is not supported", slot));
-        return info.index;
-    }
+    void warn(const std::string& text) { scene_.warnings.push_back(slots_.material + ": " + text); }
 
-    void warn(const tinygltf::Material& material, const std::string& text) {
-        scene_.warnings.push_back(fmt::format("material \"{}\": {}", material.name, text));
-    }
-
-    const tinygltf::Model& model_;
-    const std::string& where_;
+    const tinygltf::Material& source_;
     Scene& scene_;
+    SlotReader slots_;
+    Material m_;
 };
-
-Wrap wrap_from(int gltf) {
-    if (gltf == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
-    return gltf == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
-}
-
-Texture read_texture(const tinygltf::Model& model, const tinygltf::Texture& source, int index, const std::string& where,
-                     Scene& scene) {
-    if (source.source < 0 || source.source >= int(model.images.size()))
-        throw input_error(fmt::format("{}: texture {}", where, index),
-                          fmt::format("has no image that is supported (got {}, expected below {})", source.source,
-                                      model.images.size()));
-    Texture texture{.image = source.source};
-    if (source.sampler >= 0 && source.sampler < int(model.samplers.size())) {
-        const tinygltf::Sampler& sampler = model.samplers[source.sampler];
-        texture.wrap_u = wrap_from(sampler.wrapS);
-        texture.wrap_v = wrap_from(sampler.wrapT);
-        texture.nearest = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
-    } else if (source.sampler != -1) {
-        scene.warnings.push_back(fmt::format("texture {}: its sampler does not exist, the default is taken", index));
-    }
-    return texture;
-}
 
 }  // namespace
 
 void read_materials(const tinygltf::Model& model, const std::string& where, Scene& scene) {
-    for (size_t i = 0; i < model.images.size(); ++i) {
-        const tinygltf::Image& image = model.images[i];
-        const std::string image_where = fmt::format("{}: image {} \"{}\"", where, i, image.name);
-        // The parser leaves the encoded bytes of data URIs and files in `image`, embedded ones in their buffer view.
-        if (image.bufferView >= 0)
-            scene.images.push_back(decode_rgba8(buffer_view_bytes(model, image.bufferView, image_where), image_where));
-        else if (!image.image.empty())
-            scene.images.push_back(decode_rgba8(std::as_bytes(std::span(image.image)), image_where));
-        else
-            throw input_error(
-                image_where,
-                fmt::format("its file cannot be read (got \"{}\", expected one beside the scene)", image.uri));
-    }
-    for (size_t i = 0; i < model.textures.size(); ++i)
-        scene.textures.push_back(read_texture(model, model.textures[i], int(i), where, scene));
-    MaterialReader reader(model, where, scene);
-    for (const tinygltf::Material& material : model.materials) scene.materials.push_back(reader.read(material));
-    scene.materials.push_back(reader.read(tinygltf::Material()));
-    scene.materials.back().name = "default";
+    read_textures(model, where, scene);
+    for (const tinygltf::Material& material : model.materials)
+        scene.materials.push_back(MaterialReader(model, material, where, scene).read());
+    tinygltf::Material standard;
+    standard.name = "default";
+    scene.materials.push_back(MaterialReader(model, standard, where, scene).read());
 }
 
 }  // namespace pluvia

@@ -18,9 +18,10 @@
 namespace pluvia {
 namespace {
 
-constexpr std::array supported_extensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
-                                             "KHR_materials_ior", "KHR_materials_specular",
-                                             "KHR_materials_transmission"};
+constexpr std::array supported_extensions = {
+    "EXT_texture_webp",       "KHR_lights_punctual",        "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission", "KHR_texture_transform",           "MSFT_texture_dds",
+};
 
 // tinygltf follows nested values by recursion, so that a hostile file could use up the stack. Real files nest some 10.
 constexpr int max_nesting = 200;
@@ -104,6 +105,17 @@ tinygltf::TinyGLTF make_parser() {
     return parser;
 }
 
+/// tinygltf decodes data URIs of the formats that it knows and leaves other pictures empty.
+void decode_data_uris(tinygltf::Model& model) {
+    constexpr std::string_view marker = ";base64,";
+    for (tinygltf::Image& image : model.images) {
+        const size_t at = image.uri.find(marker);
+        if (!image.image.empty() || !image.uri.starts_with("data:") || at == std::string::npos) continue;
+        const std::string bytes = tinygltf::base64_decode(image.uri.substr(at + marker.size()));
+        image.image.assign(bytes.begin(), bytes.end());
+    }
+}
+
 }  // namespace
 
 tinygltf::Model parse_gltf(const std::string& path, std::vector<std::string>& warnings) {
@@ -136,6 +148,7 @@ tinygltf::Model parse_gltf(const std::string& path, std::vector<std::string>& wa
     std::replace(error.begin(), error.end(), '\n', ' ');
     if (!ok) throw input_error(path, fmt::format("is not readable as glTF ({})", error));
     if (!error.empty()) warnings.push_back(fmt::format("parts of the file are not understood ({})", error));
+    decode_data_uris(model);
     for (const std::string& used : model.extensionsUsed)
         if (!is_supported(used))
             warnings.push_back(fmt::format("extension {} is not supported and has no effect", used));

@@ -7,6 +7,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/image/pending_file.h"
 #include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_save_material.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -116,41 +117,7 @@ private:
     }
 
     void add_material(const Material& material) {
-        tinygltf::Material entry;
-        entry.name = material.name;
-        auto& pbr = entry.pbrMetallicRoughness;
-        pbr.baseColorFactor = numbers(material.base_color);
-        pbr.baseColorFactor.push_back(material.alpha);
-        pbr.metallicFactor = material.metallic;
-        pbr.roughnessFactor = material.roughness;
-        pbr.baseColorTexture.index = material.base_color_texture;
-        pbr.metallicRoughnessTexture.index = material.metallic_roughness_texture;
-        entry.normalTexture.index = material.normal_texture;
-        entry.normalTexture.scale = material.normal_scale;
-        entry.emissiveTexture.index = material.emission_texture;
-        // Factors above one are not allowed in core glTF; the strength carries the luminance.
-        const double strength = std::max(1.0, double(max_component(material.emission)));
-        for (const double channel : numbers(material.emission)) entry.emissiveFactor.push_back(channel / strength);
-        if (strength > 1) extend(entry, "KHR_materials_emissive_strength", "emissiveStrength", strength);
-        const Material standard;
-        if (material.ior != standard.ior) extend(entry, "KHR_materials_ior", "ior", material.ior);
-        if (material.specular != standard.specular)
-            extend(entry, "KHR_materials_specular", "specularFactor", material.specular);
-        if (material.transmission != standard.transmission)
-            extend(entry, "KHR_materials_transmission", "transmissionFactor", material.transmission);
-        entry.alphaMode = material.alpha_mode == AlphaMode::mask    ? "MASK"
-                          : material.alpha_mode == AlphaMode::blend ? "BLEND"
-                                                                    : "OPAQUE";
-        // The cutoff means nothing in the other modes, and a file that states it there is not valid.
-        if (material.alpha_mode == AlphaMode::mask) entry.alphaCutoff = material.alpha_cutoff;
-        entry.doubleSided = material.double_sided;
-        if (material.lamp) entry.extras = lamp_mark();
-        model_.materials.push_back(entry);
-    }
-
-    void extend(tinygltf::Material& entry, const std::string& extension, const std::string& key, double value) {
-        entry.extensions[extension] = tinygltf::Value(tinygltf::Value::Object{{key, tinygltf::Value(value)}});
-        use_extension(extension);
+        model_.materials.push_back(gltf_material(material, [this](const std::string& name) { use_extension(name); }));
     }
 
     void add_mesh(const Mesh& mesh) {

@@ -13,7 +13,7 @@ namespace {
 float mean_emission(const Scene& scene, int instance, int triangle) {
     const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
     const float untextured = luminance(material.emission);
-    if (material.emission_texture < 0) return untextured;
+    if (!material.emission_texture.used()) return untextured;
     constexpr int n = 4;
     float sum = 0;
     for (int i = 0; i < n; ++i)

@@ -82,9 +82,9 @@ void check_mesh(const Scene& scene, const Mesh& mesh, const std::string& where) 
 void check(const Scene& scene, const std::string& where) {
     for (const Texture& texture : scene.textures) check_index(texture.image, scene.images.size(), where, "image");
     for (const Material& m : scene.materials)
-        for (const int texture :
-             {m.base_color_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture})
-            check_index(texture, scene.textures.size(), fmt::format("{}: material \"{}\"", where, m.name), "texture");
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char* name) {
+            check_index(slot.texture, scene.textures.size(), fmt::format("{}: material \"{}\"", where, m.name), name);
+        });
     for (const Mesh& mesh : scene.meshes) check_mesh(scene, mesh, where);
     for (const Instance& instance : scene.instances) {
         const std::string node_where = fmt::format("{}: node \"{}\"", where, instance.name);

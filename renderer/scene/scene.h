@@ -1,12 +1,14 @@
 // Scene: the one description of a street that builders make, glTF files hold and paths are traced through.
 // A plain struct of vectors whose parts refer to each other by index; it does not change while tracing.
-// Axes as in glTF: +Y up, metres. gltf.h reads and writes it, surface.h evaluates it at a hit.
+// Axes as in glTF: +Y up, metres. gltf.h reads and writes it, surface.h evaluates it at a hit; materials
+// are in material.h.
 #pragma once
 
 #include "renderer/core/rgb.h"
 #include "renderer/core/transform.h"
 #include "renderer/core/units.h"
 #include "renderer/image/image.h"
+#include "renderer/scene/material.h"
 
 #include <array>
 #include <optional>
@@ -14,41 +16,6 @@
 #include <vector>
 
 namespace pluvia {
-
-enum class Wrap { repeat, mirror, clamp };
-
-/// A picture with the way it is looked up. Whether its bytes are sRGB or linear is decided by the slot that uses it.
-struct Texture {
-    int image = -1;  // index into Scene::images
-    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-    bool nearest = false;  // magnification filter; otherwise bilinear
-};
-
-enum class AlphaMode { opaque, mask, blend };
-
-/// glTF metallic-roughness material. Texture slots are indices into Scene::textures, -1 = none, and multiply the
-/// factors.
-struct Material {
-    std::string name;
-    Rgb base_color = Rgb(1);
-    float alpha = 1;
-    float metallic = 1, roughness = 1;  // roughness is perceptual: GGX alpha is its square
-    float specular = 1;                 // scales the reflectance of a dielectric at normal incidence
-    float ior = 1.5f;
-    float transmission = 0;       // share of light that passes a thin, smooth sheet instead of meeting the diffuse lobe
-    Rgb emission;                 // cd/m2: emissive factor times strength
-    int base_color_texture = -1;  // sRGB, alpha linear
-    int metallic_roughness_texture = -1;  // linear: roughness in g, metallic in b
-    int normal_texture = -1;              // linear, tangent space
-    int emission_texture = -1;            // sRGB
-    float normal_scale = 1;
-    AlphaMode alpha_mode = AlphaMode::opaque;
-    float alpha_cutoff = 0.5f;
-    bool double_sided = false;  // decides whether the back emits; seen and lit are all surfaces from both sides
-    bool lamp = false;          // its emission can be switched: see lamps.h
-
-    bool emits() const { return !is_black(emission); }
-};
 
 struct Tangent {
     Vec3 direction;

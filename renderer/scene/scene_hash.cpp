@@ -34,11 +34,15 @@ public:
     }
     void add(const Image<Rgba8>& image) { add(image.width), add(image.height), add(image.pixels); }
     void add(const Texture& t) { add(t.image), add(t.wrap_u), add(t.wrap_v), add(t.nearest); }
+    void add(const TextureSlot& s) {
+        add(s.texture), add(s.uv_set), add(s.has_transform);
+        add(s.transform.column_u), add(s.transform.column_v), add(s.transform.offset);
+    }
     void add(const Material& m) {
-        add(m.base_color), add(m.alpha), add(m.metallic), add(m.roughness), add(m.specular), add(m.ior);
-        add(m.transmission), add(m.emission), add(m.base_color_texture), add(m.metallic_roughness_texture);
-        add(m.normal_texture), add(m.emission_texture), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
-        add(m.lamp);
+        add(m.base_color), add(m.alpha), add(m.metallic), add(m.roughness), add(m.specular), add(m.specular_color);
+        add(m.ior), add(m.transmission), add(m.emission), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
+        add(m.double_sided), add(m.lamp);
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) { add(slot); });
     }
     void add(const Mesh& m) {
         add(m.positions), add(m.normals), add(m.uvs), add(m.uvs1), add(m.tangents), add(m.colors), add(m.alphas);

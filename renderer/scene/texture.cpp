@@ -21,10 +21,12 @@ int wrap_index(int i, int size, Wrap wrap) {
     }
 }
 
-/// Mirrored coordinates to 0..2, repeated ones to 0..1, clamped ones near 0..1.
+/// Mirrored coordinates to 0..2, repeated ones to 0..1, clamped ones near 0..1; what is not a number becomes 0.
 float reduce(float x, Wrap wrap) {
-    if (wrap == Wrap::clamp) return std::clamp(x, -1.0f, 2.0f);
-    return wrap == Wrap::mirror ? x - 2 * std::floor(x / 2) : x - std::floor(x);
+    const float reduced = wrap == Wrap::clamp    ? std::clamp(x, -1.0f, 2.0f)
+                          : wrap == Wrap::mirror ? x - 2 * std::floor(x / 2)
+                                                 : x - std::floor(x);
+    return reduced >= -1 ? reduced : 0;
 }
 
 struct Texels {

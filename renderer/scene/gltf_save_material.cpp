@@ -1,0 +1,112 @@
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#include "renderer/scene/gltf_save_material.h"
+
+#include "renderer/scene/gltf_lamp.h"
+
+#include <algorithm>
+
+namespace pluvia {
+namespace {
+
+using Value = tinygltf::Value;
+using Object = Value::Object;
+
+Value array(std::initializer_list<float> numbers) {
+    Value::Array values;
+    for (const float n : numbers) values.emplace_back(double(n));
+    return Value(values);
+}
+Value array(Rgb c) {
+    return array({c.r, c.g, c.b});
+}
+
+class MaterialWriter {
+public:
+    MaterialWriter(const Material& m, const std::function<void(const std::string&)>& use) : m_(m), use_(use) {}
+
+    tinygltf::Material write() {
+        entry_.name = m_.name;
+        auto& pbr = entry_.pbrMetallicRoughness;
+        pbr.baseColorFactor = {m_.base_color.r, m_.base_color.g, m_.base_color.b, m_.alpha};
+        pbr.metallicFactor = m_.metallic;
+        pbr.roughnessFactor = m_.roughness;
+        write_slot(pbr.baseColorTexture, m_.base_color_texture);
+        write_slot(pbr.metallicRoughnessTexture, m_.metallic_roughness_texture);
+        write_slot(entry_.normalTexture, m_.normal_texture);
+        entry_.normalTexture.scale = m_.normal_scale;
+        write_slot(entry_.emissiveTexture, m_.emission_texture);
+        // Factors above one are not allowed in core glTF; the strength carries the luminance.
+        const double strength = std::max(1.0, double(max_component(m_.emission)));
+        entry_.emissiveFactor = {m_.emission.r / strength, m_.emission.g / strength, m_.emission.b / strength};
+        if (strength > 1) add("KHR_materials_emissive_strength", "emissiveStrength", Value(strength));
+        write_extensions();
+        entry_.alphaMode = m_.alpha_mode == AlphaMode::mask    ? "MASK"
+                           : m_.alpha_mode == AlphaMode::blend ? "BLEND"
+                                                               : "OPAQUE";
+        // The cutoff means nothing in the other modes, and a file that states it there is not valid.
+        if (m_.alpha_mode == AlphaMode::mask) entry_.alphaCutoff = m_.alpha_cutoff;
+        entry_.doubleSided = m_.double_sided;
+        if (m_.lamp) entry_.extras = lamp_mark();
+        for (auto& [name, object] : extensions_) {
+            entry_.extensions[name] = Value(object);
+            use_(name);
+        }
+        return entry_;
+    }
+
+private:
+    void write_extensions() {
+        const Material standard;
+        if (m_.ior != standard.ior) add("KHR_materials_ior", "ior", m_.ior);
+        if (m_.specular != standard.specular) add("KHR_materials_specular", "specularFactor", m_.specular);
+        if (m_.specular_color != standard.specular_color)
+            add("KHR_materials_specular", "specularColorFactor", array(m_.specular_color));
+        add("KHR_materials_specular", "specularTexture", m_.specular_texture);
+        add("KHR_materials_specular", "specularColorTexture", m_.specular_color_texture);
+        if (m_.transmission != standard.transmission)
+            add("KHR_materials_transmission", "transmissionFactor", m_.transmission);
+        add("KHR_materials_transmission", "transmissionTexture", m_.transmission_texture);
+    }
+
+    void add(const std::string& extension, const std::string& key, Value value) {
+        extensions_[extension][key] = std::move(value);
+    }
+    void add(const std::string& extension, const std::string& key, float value) {
+        add(extension, key, Value(double(value)));
+    }
+    void add(const std::string& extension, const std::string& key, const TextureSlot& slot) {
+        if (!slot.used()) return;
+        Object info = {{"index", Value(slot.texture)}, {"texCoord", Value(slot.uv_set)}};
+        if (slot.has_transform) info["extensions"] = Value(Object{{"KHR_texture_transform", transform(slot)}});
+        add(extension, key, Value(info));
+    }
+
+    template <class Info>
+    void write_slot(Info& info, const TextureSlot& slot) {
+        info.index = slot.texture;
+        info.texCoord = slot.uv_set;
+        if (slot.used() && slot.has_transform) info.extensions["KHR_texture_transform"] = transform(slot);
+    }
+    Value transform(const TextureSlot& slot) {
+        use_("KHR_texture_transform");
+        const UvPlacement p = uv_placement(slot.transform);
+        return Value(Object{{"offset", array({p.offset.x, p.offset.y})},
+                            {"rotation", Value(double(p.rotation))},
+                            {"scale", array({p.scale.x, p.scale.y})}});
+    }
+
+    const Material& m_;
+    const std::function<void(const std::string&)>& use_;
+    tinygltf::Material entry_;
+    std::map<std::string, Object> extensions_;
+};
+
+}  // namespace
+
+tinygltf::Material gltf_material(const Material& material,
+                                 const std::function<void(const std::string&)>& use_extension) {
+    return MaterialWriter(material, use_extension).write();
+}
+
+}  // namespace pluvia
