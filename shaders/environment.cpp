@@ -18,10 +18,14 @@ Rgb mean_of_interpolant(Rgb before, Rgb here, Rgb after) {
 }
 
 /// Throws for what cannot be sampled, and clips negative components.
-void check(Image<Rgb>& picture, const SunDisc& sun) {
-    if (!(sun.angular_radius > 0 && is_finite(sun.radiance)))
-        throw input_error("environment", "the sun's disc has no size or no finite radiance (got a radius of " +
-                                             std::to_string(sun.angular_radius) + " radians, expected above 0)");
+void check(Image<Rgb>& picture, const std::vector<Disc>& discs) {
+    for (const Disc& disc : discs) {
+        bool finite = disc.angular_radius > 0 && !disc.strips.empty();
+        for (const Rgb& strip : disc.strips) finite = finite && is_finite(strip);
+        if (!finite)
+            throw input_error("environment", "a disc has no size or no finite radiance (got a radius of " +
+                                                 std::to_string(disc.angular_radius) + " radians, expected above 0)");
+    }
     if (picture.pixels.empty()) throw input_error("environment", "the picture is empty (expected at least one texel)");
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
@@ -33,8 +37,9 @@ void check(Image<Rgb>& picture, const SunDisc& sun) {
         }
 }
 
-/// Arc tangent of y / x in the quadrant of (x, y), radians, within 3e-7; (0, 0) gives 0.
-/// A third of the time of std::atan2, of which a look-up takes two. Source: Abramowitz and Stegun 1964, eq. 4.4.49.
+/// Arc tangent of y / x in the quadrant of (x, y), radians, within 3e-7; (0, 0)
+/// gives 0. A third of the time of std::atan2, of which a look-up takes two.
+/// Source: Abramowitz and Stegun 1964, eq. 4.4.49.
 float fast_atan2(float y, float x) {
     const float ax = std::abs(x), ay = std::abs(y), larger = std::max(ax, ay);
     const float t = larger > 0 ? std::min(ax, ay) / larger : 0, t2 = t * t;
@@ -60,14 +65,48 @@ Vec3d direction_from_azimuth(double azimuth, double elevation) {
 }
 
 Vec2 equirectangular_from_direction(Vec3 d) {
-    // The arc tangent of the elevation keeps its precision at the poles, where the arc sine of y would lose half of it.
+    // The arc tangent of the elevation keeps its precision at the poles, where
+    // the arc sine of y would lose half of it.
     const float elevation = fast_atan2(d.y, std::sqrt(d.x * d.x + d.z * d.z));
     return {0.5f + fast_atan2(d.z, d.x) * (0.5f / pi), 0.5f - elevation * (1 / pi)};
 }
 
-float SunDisc::one_minus_cos() const {
+float Disc::one_minus_cos() const {
     const float s = std::sin(0.5f * angular_radius);
     return 2 * s * s;
+}
+
+Rgb Disc::radiance(Vec3 towards) const {
+    // The chord keeps the precision that the cosine of so small an angle has
+    // lost.
+    const Vec3 offset = towards - direction;
+    const float chord_squared = 2 * one_minus_cos(), x2 = length_squared(offset) / chord_squared;
+    if (x2 > 1) return Rgb(0);
+    const float c = std::sqrt(1 - x2);
+    const Vec3 out = offset / std::sqrt(chord_squared);
+    if (!(lit_from == Vec3()) && dot(out - direction * c, lit_from) < 0) return Rgb(0);
+    const int count = int(strips.size());
+    const float across = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+    // Height above the centre: the offset along the vertical's part across the
+    // direction.
+    const float height = across > 0 ? (out.y - direction.y * dot(out, direction)) / across : 0;
+    const Rgb strip = strips[size_t(std::clamp(int((height + 1) * 0.5f * float(count)), 0, count - 1))];
+    return strip * ((1 - limb_darkening * (1 - c)) / (1 - limb_darkening / 3));
+}
+
+Rgb Disc::mean_radiance() const {
+    // Of equal areas: rings and sectors.
+    constexpr int rings = 64, sectors = 128;
+    const ShadingBasis basis(direction);
+    double r = 0, g = 0, b = 0;
+    for (int i = 0; i < rings; ++i)
+        for (int k = 0; k < sectors; ++k) {
+            const Vec3 local = sample_cone({(float(i) + 0.5f) / rings, (float(k) + 0.5f) / sectors}, one_minus_cos());
+            const Rgb here = radiance(basis.to_world(local));
+            r += here.r, g += here.g, b += here.b;
+        }
+    constexpr double share = 1.0 / (rings * sectors);
+    return {float(r * share), float(g * share), float(b * share)};
 }
 
 Environment Environment::uniform(Rgb radiance) {
@@ -77,9 +116,8 @@ Environment Environment::uniform(Rgb radiance) {
     return environment;
 }
 
-Environment::Environment(Image<Rgb> picture, const SunDisc& sun)
-    : picture_(std::move(picture)), sun_(sun), sun_one_minus_cos_(sun.one_minus_cos()), sun_basis_(sun.direction) {
-    check(picture_, sun);
+Environment::Environment(Image<Rgb> picture, const std::vector<Disc>& discs) : picture_(std::move(picture)) {
+    check(picture_, discs);
     const int width = picture_.width, height = picture_.height;
 
     row_edge_.resize(height + 1);
@@ -117,49 +155,99 @@ Environment::Environment(Image<Rgb> picture, const SunDisc& sun)
     }
     row_choice_ = Distribution1D(row_weights);
 
-    const Rgb picture_mean = {float(mean.r), float(mean.g), float(mean.b)};
-    const Rgb sun_mean = sun_.radiance * (sun_one_minus_cos_ / 2);  // its solid angle over that of the sphere
-    mean_radiance_ = picture_mean + sun_mean;
-    if (!is_black()) sun_probability_ = luminance(sun_mean) / luminance(mean_radiance_);
+    mean_radiance_ = {float(mean.r), float(mean.g), float(mean.b)};
+    add_discs(discs);
+}
+
+void Environment::add_discs(const std::vector<Disc>& discs) {
+    const double picture = luminance(mean_radiance_);
+    std::vector<double> power;
+    double total = picture;
+    for (const Disc& disc : discs) {
+        const Rgb radiance = disc.mean_radiance();
+        if (luminance(radiance) == 0) continue;
+        const Rgb mean = radiance * (disc.one_minus_cos() / 2);  // its solid angle over that of the sphere
+        mean_radiance_ += mean;
+        disc_illuminance_ += 4 * pi_d * luminance(mean) * std::max(0.0f, disc.direction.y);
+        discs_.push_back(disc);
+        power.push_back(luminance(mean));
+        total += power.back();
+    }
+    constexpr double floor = 0.05;  // a source that is weak overall may be all the
+                                    // light behind a corner
+    double sum = picture > 0 ? std::max(floor, picture / total) : 0;
+    for (const double p : power) sum += std::max(floor, p / total);
+    if (sum > 0 && picture == 0) picture_probability_ = 0;
+    if (picture > 0) picture_probability_ = float(std::max(floor, picture / total) / sum);
+    for (size_t i = 0; i < discs_.size(); ++i)
+        sources_.push_back({ShadingBasis(discs_[i].direction), discs_[i].one_minus_cos(),
+                            float(std::max(floor, power[i] / total) / sum)});
 }
 
 void Environment::multiply(float factor) {
     uniform_ *= factor;
     scale_ *= factor;
-    sun_.radiance *= factor;
+    for (Disc& disc : discs_)
+        for (Rgb& strip : disc.strips) strip *= factor;
+    disc_illuminance_ *= factor;
     sky_illuminance_ *= factor;
     mean_radiance_ *= factor;
 }
 
-double Environment::sun_illuminance() const {
-    return double(luminance(sun_.radiance)) * (2 * pi_d * sun_one_minus_cos_) * std::max(0.0f, sun_.direction.y);
+double Environment::disc_illuminance() const {
+    return disc_illuminance_;
 }
 
 Rgb Environment::radiance(Vec3 direction) const {
     if (picture_.pixels.empty()) return uniform_;
-    return radiance_at(equirectangular_from_direction(direction), in_disc(direction));
+    return radiance_at(equirectangular_from_direction(direction), direction);
 }
 
 float Environment::pdf(Vec3 direction) const {
     if (is_black()) return 0;
     if (picture_.pixels.empty()) return pdf_sphere;
-    return pdf_at(equirectangular_from_direction(direction), in_disc(direction));
+    return pdf_at(equirectangular_from_direction(direction), direction);
 }
 
 EnvironmentSample Environment::sample(Vec2 u, float u_choice) const {
     if (is_black()) return {};
     if (picture_.pixels.empty()) return {sample_sphere(u), uniform_, pdf_sphere};
-    const Vec3 wi = u_choice < sun_probability_ ? sun_basis_.to_world(sample_cone(u, sun_one_minus_cos_))
-                                                : sample_picture(u);
+    Vec3 wi;
+    size_t i = 0;
+    for (; i < sources_.size() && u_choice >= sources_[i].probability; ++i) u_choice -= sources_[i].probability;
+    if (i < sources_.size())
+        wi = sources_[i].basis.to_world(sample_cone(u, sources_[i].one_minus_cos));
+    else if (picture_probability_ > 0)
+        wi = sample_picture(u);
+    else  // rounding has left a little beyond the last disc
+        wi = discs_.back().direction;
     const Vec2 uv = equirectangular_from_direction(wi);
-    const bool inside = in_disc(wi);
-    return {wi, radiance_at(uv, inside), pdf_at(uv, inside)};
+    return {wi, radiance_at(uv, wi), pdf_at(uv, wi)};
+}
+
+bool Environment::is_in_disc(size_t disc, Vec3 direction) const {
+    return length_squared(direction - discs_[disc].direction) <= 2 * sources_[disc].one_minus_cos;
+}
+
+Rgb Environment::radiance_at(Vec2 uv, Vec3 direction) const {
+    Rgb sum = picture_radiance(uv);
+    for (size_t i = 0; i < discs_.size(); ++i)
+        if (is_in_disc(i, direction)) sum += discs_[i].radiance(direction);
+    return sum;
+}
+
+float Environment::pdf_at(Vec2 uv, Vec3 direction) const {
+    float sum = picture_probability_ * picture_pdf(uv);
+    for (size_t i = 0; i < discs_.size(); ++i)
+        if (is_in_disc(i, direction)) sum += sources_[i].probability * pdf_cone(sources_[i].one_minus_cos);
+    return sum;
 }
 
 Vec3 Environment::sample_picture(Vec2 u) const {
     const auto row = row_choice_.sample(u.y);
     const auto column = column_choice_[row.cell].sample(u.x);
-    // In double: next to a pole single precision leaves only a few values between the edges of a row.
+    // In double: next to a pole single precision leaves only a few values between
+    // the edges of a row.
     const double top = row_edge_[row.cell], bottom = row_edge_[row.cell + 1];
     const double y = top + row.offset * (bottom - top);
     const auto radius = float(std::sqrt(std::max(0.0, (1 - y) * (1 + y))));
@@ -167,32 +255,26 @@ Vec3 Environment::sample_picture(Vec2 u) const {
     return {-radius * std::cos(phi), float(y), -radius * std::sin(phi)};
 }
 
-Rgb Environment::radiance_at(Vec2 uv, bool in_disc) const {
+Rgb Environment::picture_radiance(Vec2 uv) const {
     const int width = picture_.width, height = picture_.height;
     const float x = uv.x * float(width) - 0.5f;
     const float y = std::clamp(uv.y * float(height) - 0.5f, 0.0f, float(height - 1));
     const int column = int(std::floor(x)), row = int(y);
     const float tx = x - float(column), ty = y - float(row);
-    const int left = column < 0 ? width - 1 : column;  // u reaches from 0 to 1, so that x lies in [-1/2, width - 1/2]
+    const int left = column < 0 ? width - 1 : column;  // u reaches from 0 to 1, so that x lies
+                                                       // in [-1/2, width - 1/2]
     const int right = column + 1 < width ? column + 1 : 0, below = std::min(row + 1, height - 1);
-    const Rgb sky = mix(mix(picture_.at(left, row), picture_.at(right, row), tx),
-                        mix(picture_.at(left, below), picture_.at(right, below), tx), ty) * scale_;
-    return in_disc ? sky + sun_.radiance : sky;
+    return mix(mix(picture_.at(left, row), picture_.at(right, row), tx),
+               mix(picture_.at(left, below), picture_.at(right, below), tx), ty) *
+           scale_;
 }
 
-float Environment::pdf_at(Vec2 uv, bool in_disc) const {
+float Environment::picture_pdf(Vec2 uv) const {
     const int width = picture_.width, height = picture_.height;
     const int column = std::min(int(uv.x * float(width)), width - 1);
     const int row = std::min(int(uv.y * float(height)), height - 1);
     const auto solid_angle = float((row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / width));
-    const float sky = (1 - sun_probability_) * row_choice_.probability(row) * column_choice_[row].probability(column) /
-                      solid_angle;
-    return in_disc ? sky + sun_probability_ * pdf_cone(sun_one_minus_cos_) : sky;
-}
-
-bool Environment::in_disc(Vec3 direction) const {
-    // The chord keeps the precision that the cosine of so small an angle has lost.
-    return length_squared(direction - sun_.direction) <= 2 * sun_one_minus_cos_;
+    return row_choice_.probability(row) * column_choice_[row].probability(column) / solid_angle;
 }
 
 }  // namespace pluvia

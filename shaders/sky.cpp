@@ -1,72 +1,104 @@
 #include "shaders/sky.h"
 
 #include "renderer/core/error.h"
-#include "renderer/core/units.h"
-#include "shaders/daylight.h"
+#include "renderer/core/parallel.h"
+#include "shaders/night.h"
+#include "shaders/sky_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
 
 namespace pluvia {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr int picture_width = 512, picture_height = 256;
-constexpr float ground_albedo = 0.2f;
-constexpr double overcast_transmittance = 0.25, rain_cloud_transmittance = 0.16;  // Kasten and Czeplak 1980
-
-/// Part of the sun's disc, between 0 and 1, above the horizon when its centre is this many of its radii above it.
-double part_above_horizon(double radii) {
-    if (radii <= -1) return 0;
-    if (radii >= 1) return 1;
-    return 0.5 + (radii * std::sqrt(1 - radii * radii) + std::asin(radii)) / pi_d;
-}
-
-/// The five numbers of Perez' all-weather pattern: two of the gradient from zenith to horizon, three of the glow
-/// around the sun. Each is slope * turbidity + offset in Preetham, Shirley and Smits 1999, appendix 2.
-struct Perez {
-    double a, b, c, d, e;
-
-    double gradient(double cos_theta) const { return 1 + a * std::exp(b / cos_theta); }
-    double glow(double gamma) const { return 1 + c * std::exp(d * gamma) + e * std::cos(gamma) * std::cos(gamma); }
-};
-
-Perez perez_luminance(double t) {
-    return {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251,
-            0.1206 * t - 2.5771, -0.0670 * t + 0.3703};
-}
-Perez perez_x(double t) {
-    return {-0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125,
-            -0.0641 * t - 0.8989, -0.0033 * t + 0.0452};
-}
-Perez perez_y(double t) {
-    return {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102,
-            -0.0441 * t - 1.6537, -0.0109 * t + 0.0529};
-}
-
-/// Polynomial in the sun's zenith angle.
-double cubic(double theta, double c3, double c2, double c1, double c0) {
-    return ((c3 * theta + c2) * theta + c1) * theta + c0;
-}
-/// Chromaticity of the zenith. Source: Preetham, Shirley and Smits 1999, appendix 2.
-double zenith_x(double t, double theta) {
-    return t * t * cubic(theta, 0.00166, -0.00375, 0.00209, 0) +
-           t * cubic(theta, -0.02903, 0.06377, -0.03202, 0.00394) +
-           cubic(theta, 0.11693, -0.21196, 0.06052, 0.25886);
-}
-double zenith_y(double t, double theta) {
-    return t * t * cubic(theta, 0.00275, -0.00610, 0.00317, 0) +
-           t * cubic(theta, -0.04214, 0.08970, -0.04153, 0.00516) +
-           cubic(theta, 0.15346, -0.26756, 0.06670, 0.26688);
-}
+constexpr int picture_width = 1024, picture_height = 512;
 
 using Picture = Image<Rgb>;
 
-/// Elevation in the middle of a picture's row.
-double row_elevation(int y) { return pi_d * (0.5 - (y + 0.5) / picture_height); }
+double row_elevation(int y) {
+    return pi_d * (0.5 - (y + 0.5) / picture_height);
+}
+double column_azimuth(int x) {
+    return 2 * pi_d * ((x + 0.5) / picture_width - 0.25);
+}
+
+/// A body that lights the atmosphere: the sun or the moon.
+struct Body {
+    double elevation, azimuth;
+    double scale;  // of the sun's light at 1 AU, luminance
+    Bands color = Bands(1);
+    double radius;
+    float limb_darkening = 0;
+    Vec3 lit_from = {};
+    double lit_part = 1;  // of the disc
+    bool lights_air = true;
+};
+
+Body sun_of(const SkySettings& s) {
+    constexpr double radius_at_1_au = 0.2666 * pi_d / 180;
+    // Limb darkening in the middle of the visible spectrum.
+    return {s.sun_elevation,
+            s.sun_azimuth,
+            1 / (s.sun_distance * s.sun_distance),
+            Bands(1),
+            radius_at_1_au / s.sun_distance,
+            0.6f};
+}
+
+Body moon_of(const Moon& m, const SkySettings& s) {
+    Body body{m.elevation, m.azimuth, moon_over_sun(m.phase_angle, m.parallax), moon_reddening(),
+              moon_radius(m.parallax)};
+    body.lit_from = Vec3(direction_from_azimuth(s.sun_azimuth, s.sun_elevation));
+    // By day its light in the air is less than a ten thousandth of the sun's; its
+    // disc is seen all the same.
+    constexpr double day = 0.17;
+    body.lights_air = s.sun_elevation < day;
+    return body;
+}
+
+/// Black where the disc is below the horizon or behind closed cloud.
+Disc disc_of(const SkyTables& tables, const Body& body, double passed_by_clouds) {
+    constexpr int strips = 32;  // so that a disc sets bit by bit
+    Disc disc;
+    disc.direction = Vec3(direction_from_azimuth(body.azimuth, body.elevation));
+    disc.angular_radius = float(body.radius);
+    disc.limb_darkening = body.limb_darkening;
+    disc.lit_from = body.lit_from;
+    double shining = 1;  // part of the disc
+    if (!(disc.lit_from == Vec3())) {
+        disc.strips = {Rgb(1)};
+        shining = disc.mean_radiance().g;
+        constexpr double thinnest = 1e-3;  // of a crescent that quadrature finds
+        if (shining < thinnest) shining = 1, disc.lit_from = {};
+    }
+    disc.strips.assign(strips, Rgb(0));
+    const double scale = passed_by_clouds * body.scale / (disc.solid_angle() * shining);
+    if (scale == 0) return disc;
+    for (int i = 0; i < strips; ++i) {
+        const double elevation = body.elevation + body.radius * ((i + 0.5) * 2 / strips - 1);
+        const Bands light = direct_transmittance(tables, elevation) * body.color;
+        disc.strips[size_t(i)] = rec709_from_xyz(xyz_from_bands(light * float(scale)));
+    }
+    return disc;
+}
+
+/// Rgb factor for light of the sun's colour that is to have the body's.
+Rgb tint_of(const Body& body) {
+    const Rgb sun = rec709_from_xyz(xyz_from_bands(Bands(1))), c = rec709_from_xyz(xyz_from_bands(body.color));
+    return {c.r / sun.r, c.g / sun.g, c.b / sun.b};
+}
+
+void add_view(Picture& picture, const SkyTables& tables, const Body& body) {
+    const SkyView view(tables, body.elevation);
+    const Rgb tint = tint_of(body) * float(body.scale);
+    parallel_for(picture_height / 2, [&](int y) {
+        for (int x = 0; x < picture_width; ++x)
+            picture.at(x, y) += view.radiance(row_elevation(y), column_azimuth(x) - body.azimuth) * tint;
+    });
+}
 
 /// Irradiance by the upper half of the picture on a horizontal surface.
 Rgb sky_irradiance(const Picture& picture) {
@@ -82,93 +114,82 @@ Rgb sky_irradiance(const Picture& picture) {
     return {float(r), float(g), float(b)};
 }
 
-/// Clear sky around a sun above or on the horizon, at an arbitrary level; the lower half stays black.
-Picture clear_pattern(Vec3d sun, double turbidity) {
-    const Perez luminances = perez_luminance(turbidity), xs = perez_x(turbidity), ys = perez_y(turbidity);
-    const double theta = std::acos(std::clamp(sun.y, 0.0, 1.0));
-    const double x_scale = zenith_x(turbidity, theta) / (xs.gradient(1) * xs.glow(theta));
-    const double y_scale = zenith_y(turbidity, theta) / (ys.gradient(1) * ys.glow(theta));
-    Picture picture(picture_width, picture_height);
-    for (int row = 0; row < picture_height / 2; ++row) {
-        const double elevation = row_elevation(row), cos_theta = std::sin(elevation);
-        const double level = luminances.gradient(cos_theta);
-        const double row_x = x_scale * xs.gradient(cos_theta), row_y = y_scale * ys.gradient(cos_theta);
-        for (int column = 0; column < picture_width; ++column) {
-            const double azimuth = 2 * pi_d * ((column + 0.5) / picture_width - 0.25);
-            const Vec3d direction = direction_from_azimuth(azimuth, elevation);
-            const double gamma = std::acos(std::clamp(dot(direction, sun), -1.0, 1.0));
-            const double x = row_x * xs.glow(gamma), y = row_y * ys.glow(gamma);
-            const double Y = level * luminances.glow(gamma);
-            picture.at(column, row) = rec709_from_xyz(Y * x / y, Y, Y * (1 - x - y) / y);
-        }
-    }
-    return picture;
+Rgb horizontal_irradiance(const Disc& disc) {
+    return disc.mean_radiance() * (disc.solid_angle() * std::max(0.0f, disc.direction.y));
 }
 
-/// CIE standard overcast sky, zenith luminance 1; the lower half stays black. Source: Moon and Spencer 1942.
-Picture overcast_pattern() {
-    Picture picture(picture_width, picture_height);
-    for (int row = 0; row < picture_height / 2; ++row)
-        for (int column = 0; column < picture_width; ++column)
-            picture.at(column, row) = Rgb(float((1 + 2 * std::sin(row_elevation(row))) / 3));
-    return picture;
+void add_row(Picture& picture, int y, Rgb radiance) {
+    for (int x = 0; x < picture_width; ++x) picture.at(x, y) += radiance;
 }
 
-/// Scales the sky to an illuminance and adds a constant one, both in lux.
-void set_level(Picture& picture, double illuminance, double constant_illuminance) {
-    const auto factor = float(illuminance / luminance(sky_irradiance(picture)));
-    const Rgb constant(float(constant_illuminance / pi_d));
+/// Replaces a part of the clear sky by overcast of the given irradiance.
+void add_clouds(Picture& picture, double cover, Rgb irradiance) {
+    Picture overcast(picture_width, picture_height);
     for (int y = 0; y < picture_height / 2; ++y)
-        for (int x = 0; x < picture_width; ++x) picture.at(x, y) = picture.at(x, y) * factor + constant;
+        add_row(overcast, y, Rgb(float(overcast_luminance(std::sin(row_elevation(y))))));
+    // By the picture's own integral, so that the wanted illuminance is met to
+    // rounding.
+    const Rgb scale = irradiance / luminance(sky_irradiance(overcast));
+    for (int y = 0; y < picture_height / 2; ++y)
+        for (int x = 0; x < picture_width; ++x)
+            picture.at(x, y) = picture.at(x, y) * float(1 - cover) + overcast.at(x, y) * scale;
 }
 
-void add_ground(Picture& picture, Rgb irradiance) {
-    const Rgb radiance = irradiance * (ground_albedo / pi);
-    for (int y = picture_height / 2; y < picture_height; ++y)
-        for (int x = 0; x < picture_width; ++x) picture.at(x, y) = radiance;
+void require(bool ok, const char* what, double got, const char* expected) {
+    if (!ok)
+        throw usage_error(
+            "sky", std::string(what) + " is out of range (got " + std::to_string(got) + ", expected " + expected + ")");
 }
 
 void check(const SkySettings& s) {
-    if (!(s.turbidity >= 2 && s.turbidity <= 10))
-        throw usage_error("sky", "turbidity out of range (got " + std::to_string(s.turbidity) + ", expected 2 to 10)");
-    if (!(std::abs(s.sun_elevation) <= pi_d / 2 + 1e-9))
-        throw usage_error("sky", "sun elevation out of range (got " + std::to_string(s.sun_elevation * (180 / pi_d)) +
-                                     " degrees, expected -90 to 90)");
-    if (!std::isfinite(s.sun_azimuth)) throw usage_error("sky", "sun azimuth is not a number");
-}
-
-Environment clouded_sky(double illuminance) {
-    Picture picture = overcast_pattern();
-    set_level(picture, illuminance, 0);
-    add_ground(picture, sky_irradiance(picture));
-    return Environment(std::move(picture));
-}
-
-Environment clear_sky(const SkySettings& settings) {
-    const double elevation = settings.sun_elevation;
-    SunDisc disc;
-    disc.direction = Vec3(direction_from_azimuth(settings.sun_azimuth, elevation));
-    const Rgb direct_normal = sunlight(elevation, settings.turbidity) *
-                              float(part_above_horizon(elevation / disc.angular_radius));
-    disc.radiance = direct_normal / disc.solid_angle();
-    const Rgb direct = direct_normal * float(std::max(0.0, std::sin(elevation)));
-
-    Picture picture = clear_pattern(direction_from_azimuth(settings.sun_azimuth, std::max(0.0, elevation)),
-                                    settings.turbidity);
-    const double total = clear_sky_illuminance(elevation) - night_sky_illuminance;
-    set_level(picture, total - luminance(direct), night_sky_illuminance);
-    add_ground(picture, sky_irradiance(picture) + direct);
-    return Environment(std::move(picture), disc);
+    const auto is_elevation = [](double e) { return std::abs(e) <= pi_d / 2 + 1e-9; };
+    require(is_elevation(s.sun_elevation), "sun elevation", s.sun_elevation, "-pi/2 to pi/2 radians");
+    require(std::isfinite(s.sun_azimuth), "sun azimuth", s.sun_azimuth, "a finite angle");
+    require(s.sun_distance > 0.5 && s.sun_distance < 2, "distance of the sun", s.sun_distance, "0.5 to 2 AU");
+    require(s.clouds.cover >= 0 && s.clouds.cover <= 1, "cloud cover", s.clouds.cover, "0 to 1");
+    require(s.clouds.transmittance > 0 && s.clouds.transmittance <= 1, "transmittance of cloud", s.clouds.transmittance,
+            "above 0, up to 1");
+    require(s.city_glow >= 0 && s.city_glow <= 100, "city glow", s.city_glow, "0 to 100 cd/m2");
+    if (!s.moon) return;
+    require(is_elevation(s.moon->elevation), "moon elevation", s.moon->elevation, "-pi/2 to pi/2 radians");
+    require(std::isfinite(s.moon->azimuth), "moon azimuth", s.moon->azimuth, "a finite angle");
 }
 
 }  // namespace
 
-Environment make_sky(const SkySettings& settings) {
+Environment make_sky(const SkyTables& tables, const SkySettings& settings) {
     check(settings);
-    if (settings.weather == Weather::clear) return clear_sky(settings);
-    const bool rain = settings.weather == Weather::rain;
-    return clouded_sky((rain ? rain_cloud_transmittance : overcast_transmittance) *
-                       clear_sky_illuminance(settings.sun_elevation));
+    Picture picture(picture_width, picture_height);
+    for (int y = 0; y < picture_height / 2; ++y) add_row(picture, y, night_sky_radiance(tables, row_elevation(y)));
+
+    std::vector<Body> bodies;
+    // Below these heights the body's light is less than a thousandth of the night
+    // sky's.
+    constexpr double last_sunlight = -0.35, last_moonlight = -0.14;
+    if (settings.sun_elevation > last_sunlight) bodies.push_back(sun_of(settings));
+    if (settings.moon && settings.moon->elevation > last_moonlight) bodies.push_back(moon_of(*settings.moon, settings));
+    std::vector<Disc> discs;
+    Rgb direct, clear_direct;
+    for (const Body& body : bodies) {
+        if (body.lights_air) add_view(picture, tables, body);
+        const Disc clear = disc_of(tables, body, 1);
+        clear_direct += horizontal_irradiance(clear);
+        discs.push_back(disc_of(tables, body, disc_ratio(settings.clouds)));
+        direct += horizontal_irradiance(discs.back());
+    }
+    const Clouds& clouds = settings.clouds;
+    if (clouds.cover > 0) {
+        const Rgb clear_sky = sky_irradiance(picture), clear = clear_sky + clear_direct;
+        const double wanted = illuminance_ratio(clouds) * luminance(clear);
+        const double missing = wanted - luminance(direct) - (1 - clouds.cover) * luminance(clear_sky);
+        add_clouds(picture, clouds.cover, cloud_color(clear, settings.sun_elevation) * float(std::max(0.0, missing)));
+    }
+    for (int y = 0; settings.city_glow > 0 && y < picture_height / 2; ++y)
+        add_row(picture, y, city_glow_radiance(settings.city_glow, clouds.cover, row_elevation(y)));
+
+    const Rgb ground = (sky_irradiance(picture) + direct) * float(tables.atmosphere.settings.ground_albedo / pi_d);
+    for (int y = picture_height / 2; y < picture_height; ++y) add_row(picture, y, ground);
+    return Environment(std::move(picture), discs);
 }
 
 }  // namespace pluvia

@@ -1,7 +1,7 @@
 // Display colour and exposure: known patches, monotone views, and metering that a few bright pixels cannot move.
+#include "renderer/image/color.h"
 #include "renderer/core/error.h"
 #include "renderer/core/random.h"
-#include "renderer/image/color.h"
 #include "renderer/image/exposure.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,9 @@ Rgb shown(const DisplayView& view, Rgb light) {
     view.apply(std::span(&light, 1));
     return light;
 }
-float grey_shown(const DisplayView& view, float light) { return shown(view, Rgb(light)).g; }
+float grey_shown(const DisplayView& view, float light) {
+    return shown(view, Rgb(light)).g;
+}
 
 }  // namespace
 
@@ -94,11 +96,11 @@ TEST_CASE("the aces view gives the published grey patches") {
 TEST_CASE("the filmic view shows 16.5 stops around a grey of one half") {
     const DisplayView view("filmic");
     CHECK(grey_shown(view, 0.18f) == doctest::Approx(0.5).epsilon(0.002));
-    CHECK(grey_shown(view, 1) < 0.82f);       // display white of srgb is far from white
-    CHECK(grey_shown(view, 16) > 0.999f);     // 16.3 is
+    CHECK(grey_shown(view, 1) < 0.82f);    // display white of srgb is far from white
+    CHECK(grey_shown(view, 16) > 0.999f);  // 16.3 is
     CHECK(grey_shown(view, 8) < 0.99f);
     CHECK(grey_shown(view, 0.0003f) > 0.0005f);
-    CHECK(grey_shown(view, 0.0001f) == 0);    // 2^-12.47 is black
+    CHECK(grey_shown(view, 0.0001f) == 0);  // 2^-12.47 is black
     CHECK(grey_shown(view, 0) == 0);
 }
 
@@ -175,16 +177,29 @@ TEST_CASE("one more exposure value halves the picture") {
     CHECK(exposure_scale(11.5) == doctest::Approx(2 * exposure_scale(12.5)));
 }
 
-TEST_CASE("automatic exposure shows an even picture as mid grey by day and darker by night") {
+TEST_CASE("automatic exposure is a light meter's by day, half a stop brighter by night, and leaves dark nights dark") {
     struct Level {
-        float light, shown;
+        double light, ev100;
     };
-    for (const Level level : {Level{4000, 0.18f}, Level{64, 0.18f}, Level{4, 0.09f}, Level{0.25f, 0.045f}, Level{0.01f, 0.045f}}) {
+    // 4000 cd/m2 is paper in the sun; log2(8 * 4000) = 14.97, log2(8 * 64) = 9, log2(8 * 8) = 6, log2(8 * 0.5) = 2.
+    for (const Level level : {Level{4000, 14.97}, Level{64, 9}, Level{8, 5.75}, Level{0.5, 1.5}, Level{0.125, 0.625},
+                              Level{0.0156, -0.125}, Level{1e-4, -1.946}}) {
         LuminanceHistogram histogram;
-        for (int i = 0; i < 1000; ++i) histogram.add(Rgb(level.light));
+        for (int i = 0; i < 1000; ++i) histogram.add(Rgb(float(level.light)));
         CAPTURE(level.light);
-        // A bin is 1/32 of a stop, its centre at most 1/64 away: 1.1 %, and a quarter of that by the law for the night.
-        CHECK(level.light * exposure_scale(histogram.auto_ev100()) == doctest::Approx(level.shown).epsilon(0.014));
+        CHECK(std::abs(histogram.auto_ev100() - level.ev100) < 0.02);  // a bin's centre is at most 1/64 away
+    }
+}
+
+TEST_CASE("automatic exposure never jumps and never falls as light grows") {
+    double before = min_auto_ev100;
+    for (double stop = -16; stop < 20; stop += 1.0 / 32) {
+        LuminanceHistogram histogram;
+        histogram.add(Rgb(float(std::exp2(stop + 1.0 / 64))));
+        const double now = histogram.auto_ev100();
+        CHECK(now >= before);
+        CHECK(now - before < 1.2 / 32);  // a stop more of light is at most a stop and an eighth more of exposure
+        before = now;
     }
 }
 

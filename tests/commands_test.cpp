@@ -45,7 +45,7 @@ std::set<std::string> names_in(const std::string& folder) {
 }  // namespace
 
 TEST_CASE("every command explains itself with an example") {
-    for (const char* command : {"render", "scenes", "inspect"}) {
+    for (const char* command : {"render", "scenes", "inspect", "sky"}) {
         const Outcome help = run_program(std::string(command) + " --help");
         CAPTURE(command);
         CHECK(help.exit_code == 0);
@@ -62,7 +62,7 @@ TEST_CASE("the examples that --help shows work") {
     REQUIRE(run_program("scenes lane -o " + folder.path()).exit_code == 0);
     CHECK(run_program("scenes --list").out.find("lane") != std::string::npos);
     int examples = 0;
-    for (const char* command : {"", "render", "scenes", "inspect"}) {
+    for (const char* command : {"", "render", "scenes", "inspect", "sky"}) {
         std::istringstream help(run_program(std::string(command) + " --help").out);
         std::string line;
         while (std::getline(help, line) && line != "Example:") {
@@ -74,7 +74,7 @@ TEST_CASE("the examples that --help shows work") {
             CHECK(std::system(("cd " + folder.path() + "; PATH=.:$PATH; { " + line + "; } >log 2>&1").c_str()) == 0);
         }
     }
-    CHECK(examples >= 5);
+    CHECK(examples >= 6);
 }
 
 TEST_CASE("of an option given twice the last one counts, and a list ends where the next word begins") {
@@ -162,7 +162,14 @@ TEST_CASE("mistakes get one line that says where, what, got and expected, and th
         std::string word;
     };
     std::vector<Mistake> mistakes = {
-        {"render " + scene + to + " --date 2024-13-40", 2, ""},
+        {"render " + scene + to + " --date 2024-13-40", 2, "2024-13-40"},
+        {"sky --date 2025-02-31", 2, "2025-2-31"},
+        {"sky --latitude 95", 2, "-90 to 90"},
+        {"sky --hour 25", 2, "0 to 24"},
+        {"sky --cloud-cover 2", 2, "0 to 1"},
+        {"sky --weather snow", 2, "thunderstorm"},
+        {"sky --strip", 2, "--strip"},
+        {"sky -o /proc/nowhere/sky.exr", 4, "/proc/nowhere"},
         {"render " + scene + to + " --view nice", 2, "nice"},
         {"render " + scene + to + " --camera nobody", 2, "eye"},
         {"render " + scene + to + " --environment 1,1,1 --environment-scale nan", 2, "--environment-scale"},
@@ -187,7 +194,8 @@ TEST_CASE("mistakes get one line that says where, what, got and expected, and th
         "--exposure bright|--depth-encoding foo|--focus 3|--bounces -2|--composition art|--bounces 1.5|"
         "--seed -1|--threads -1|--wind 1,2|--camera-velocity nan,0,0|--streak-width 0|--streak-gain inf|"
         "--latitude 91|--longitude nan|--utc-offset 99|--sun-elevation 100|--sun-azimuth nan|"
-        "--turbidity 1|--lamps dim|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"
+        "--turbidity 0.5|--cloud-cover 2|--cloud-cover nan|--cloud-type fluffy|--city-glow bright|--city-glow -1|"
+        "--lamps dim|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"
         "--frame 9999999999|--progress loud|--no-such-option");
     for (std::string option; std::getline(options, option, '|');)
         mistakes.push_back({"render " + scene + to + " " + option, 2, option.substr(0, option.find(' '))});
@@ -263,6 +271,57 @@ TEST_CASE("inspect tells what a scene requires, what a frame holds and what rain
     const Json rain = Json::parse(run_program("inspect --rain 100 --json").out);
     CHECK(rain["rain"]["100"]["drops_per_m3"].get<double>() ==
           doctest::Approx(4391).epsilon(1e-3));  // Marshall and Palmer
+}
+
+TEST_CASE("sky tells the light in numbers, and its panorama gives the same light back") {
+    const TemporaryFolder folder;
+    const std::string exr = folder / "sky.exr";
+    const Outcome o = run_program("sky --hour 15 --weather fair --json -o " + exr);
+    CAPTURE(o.err);
+    REQUIRE(o.exit_code == 0);
+    const Json j = Json::parse(o.out);
+    const double total = j["illuminance_total_lux"];
+    CHECK(total > 20e3);
+    CHECK(j["illuminance_direct_lux"].get<double>() + j["illuminance_sky_lux"].get<double>() == doctest::Approx(total));
+    CHECK(j["sun"]["elevation_degrees"].get<double>() > 20);
+    CHECK(j["moon"]["lit_share"].get<double>() <= 1);
+    CHECK(Environment(read_radiance(exr)).horizontal_illuminance() == doctest::Approx(total).epsilon(0.005));
+    const Json overcast = Json::parse(run_program("sky --sun-elevation 30 --weather overcast --json").out);
+    CHECK(overcast["illuminance_direct_lux"] == 0);
+    CHECK(run_program("sky --hour 15 --weather fair").out.find("lux") != std::string::npos);
+}
+
+TEST_CASE("hour 24 is hour 0 of the next day, to the last byte of a frame") {
+    const TemporaryFolder folder;
+    const std::string late = folder / "late.exr", early = folder / "early.exr";
+    const std::string a = run_program("sky --json --date 2024-02-29 --hour 24 --utc-offset 5.5 -o " + late).out;
+    CHECK(a == run_program("sky --json --date 2024-03-01 --hour 0 --utc-offset 5.5 -o " + early).out);
+    CHECK(read_radiance(late).pixels == read_radiance(early).pixels);
+}
+
+TEST_CASE("lamps are off by day and on by night, unless told otherwise") {
+    const TemporaryFolder folder;
+    Scene scene;
+    Material glass = emitter(Rgb(500));
+    glass.lamp = true;
+    add_quad(scene, {-2, 0, -2}, {4, 0, 0}, {0, 4, 0}, glass);
+    scene.cameras.push_back({"eye", translate({0, 2, 3}), 0.3});
+    save_glb(scene, folder / "lamp.glb");
+    const auto green = [&](const std::string& options) {
+        const std::string out = folder / "out";
+        REQUIRE(run_program("render " + (folder / "lamp.glb") + " --size 4x4 --spp 1 --progress none --overwrite -o " +
+                            out + " " + options)
+                    .exit_code == 0);
+        ExrReader exr(out + "/frame.exr");
+        std::vector<float> values(16);
+        const ExrRequest request{"background.G", values.data()};
+        exr.read_rows(0, 4, std::span(&request, 1));
+        return values[5];
+    };
+    CHECK(green("--sun-elevation 20") == 0);
+    CHECK(green("--sun-elevation -6") == doctest::Approx(500));
+    CHECK(green("--sun-elevation 20 --lamps on") == doctest::Approx(500));
+    CHECK(green("--sun-elevation -6 --lamps off") == 0);
 }
 
 }  // namespace pluvia

@@ -1,6 +1,7 @@
 // Samples of light from infinitely far: that they follow their pdf and find all the light.
 #include "shaders/sky.h"
 #include "tests/environments.h"
+#include "tests/skies.h"
 #include "tests/statistics.h"
 
 #include <doctest/doctest.h>
@@ -25,7 +26,7 @@ double texel_solid_angle(int width, int height, int y) {
     return 2 * pi_d / width * (std::cos(pi_d * y / height) - std::cos(pi_d * (y + 1) / height));
 }
 
-bool in_disc(const SunDisc& sun, Vec3 direction) {
+bool in_disc(const Disc& sun, Vec3 direction) {
     return length(cross(direction, sun.direction)) < std::sin(sun.angular_radius) && dot(direction, sun.direction) > 0;
 }
 
@@ -33,8 +34,8 @@ bool in_disc(const SunDisc& sun, Vec3 direction) {
 /// over each. The pdf of a picture is constant within a texel, so that its integral is exact.
 double p_value_of_samples(const Environment& sampled, const Environment& environment, int width, int height,
                           uint64_t seed, int count) {
-    const SunDisc& sun = environment.sun();
-    const bool has_sun = !is_black(sun.radiance);
+    const bool has_sun = !environment.discs().empty();
+    const Disc sun = has_sun ? environment.discs()[0] : Disc();
     std::vector<double> expected(size_t(width) * height + 1), found(expected.size());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
@@ -79,17 +80,56 @@ TEST_CASE("samples of a picture follow their pdf") {
         CHECK(samples_follow_pdf(Environment(rough_picture(33, 17)), 33, 17, 3, 400000));
     }
     SUBCASE("steps, zeros and a sun") {
-        CHECK(samples_follow_pdf(Environment(rough_picture(33, 17), small_sun()), 33, 17, 4, 400000));
+        CHECK(samples_follow_pdf(Environment(rough_picture(33, 17), {small_sun()}), 33, 17, 4, 400000));
     }
     SUBCASE("a single texel") {
-        CHECK(samples_follow_pdf(Environment(Image<Rgb>(1, 1, Rgb(2)), small_sun()), 1, 1, 5, 200000));
+        CHECK(samples_follow_pdf(Environment(Image<Rgb>(1, 1, Rgb(2)), {small_sun()}), 1, 1, 5, 200000));
     }
 }
 
-TEST_CASE("samples of a clear sky follow their pdf") {
+TEST_CASE("samples of a clear sky with sun and moon follow their pdf") {
     SkySettings settings;
-    settings.sun_elevation = radians_from_degrees(25.1);
-    CHECK(samples_follow_pdf(make_sky(settings), 512, 256, 6, 1000000));
+    settings.sun_elevation = 0.06;
+    settings.moon = Moon{.elevation = 0.3, .azimuth = 4, .phase_angle = 1};
+    const Environment environment = make_sky(standard_sky_tables(), settings);
+    REQUIRE(environment.discs().size() == 2);
+    // Cells of 32 x 32 texels, and the discs, which are larger than a texel and left out of the cells around them.
+    constexpr int width = 1024, height = 512, columns = 32, rows = 16, points = 3;
+    const auto cell_of = [&](Vec3 direction, double u, double v) {
+        for (size_t i = 0; i < 2; ++i)
+            if (in_disc(environment.discs()[i], direction)) return columns * rows + int(i);
+        return std::min(int(v * rows), rows - 1) * columns + std::min(int(u * columns), columns - 1);
+    };
+    std::vector<double> expected(columns * rows + 2), found(expected.size());
+    double total = 0;
+    for (int y = 0; y < height * points; ++y)
+        for (int x = 0; x < width * points; ++x) {
+            const double u = (x + 0.5) / (width * points), v = (y + 0.5) / (height * points);
+            const Vec3 direction = direction_at(u, v);
+            const int cell = cell_of(direction, u, v);
+            if (cell < columns * rows)
+                expected[size_t(cell)] +=
+                    double(environment.pdf(direction)) * texel_solid_angle(width * points, height * points, y);
+        }
+    for (size_t i = 0; i < 2; ++i) {
+        const Disc& disc = environment.discs()[i];
+        const ShadingBasis basis(disc.direction);
+        for (int k = 0; k < 1000; ++k)
+            expected[columns * rows + i] +=
+                double(environment.pdf(basis.to_world(sample_cone(
+                    {unit_float(hash_key(71, k)), unit_float(hash_key(72, k))}, 0.999f * disc.one_minus_cos())))) *
+                disc.solid_angle() / 1000;
+    }
+    for (const double e : expected) total += e;
+    CHECK(total == doctest::Approx(1).epsilon(1e-4));
+    const int count = 2000000;
+    for (int i = 0; i < count; ++i) {
+        const EnvironmentSample s = draw(environment, 6, i);
+        const Vec2 uv = equirectangular_from_direction(s.wi);
+        ++found[size_t(cell_of(s.wi, uv.x, uv.y))];
+    }
+    for (double& e : expected) e *= count / total;
+    CHECK(chi_square_test(found, expected).p_value > five_sigma_p_value);
 }
 
 TEST_CASE("samples of a uniform environment are uniform") {
@@ -117,8 +157,8 @@ TEST_CASE("the pdf integrates to one") {
     CHECK(integral(Environment(one_bright_texel(32, 16, 5, 6)), 32, 16) == doctest::Approx(1).epsilon(1e-6));
     CHECK(integral(Environment(rough_picture(33, 17)), 33, 17) == doctest::Approx(1).epsilon(1e-6));
     // The disc lies between texel centres; it adds its part beyond the density of the picture around it.
-    const Environment environment(rough_picture(33, 17), small_sun());
-    const SunDisc& sun = environment.sun();
+    const Environment environment(rough_picture(33, 17), {small_sun()});
+    const Disc& sun = environment.discs()[0];
     const Vec3 beside = normalize(sun.direction + Vec3(0, 1.5f * sun.angular_radius, 0));
     const double disc = (double(environment.pdf(sun.direction)) - environment.pdf(beside)) * sun.solid_angle();
     CHECK(integral(environment, 33, 17) + disc == doctest::Approx(1).epsilon(1e-5));
@@ -129,15 +169,15 @@ TEST_CASE("sampling finds the light that quadrature finds") {
     SkySettings settings;
     settings.sun_elevation = 0.3;
     const auto check = [](const Environment& environment, int width, int height, int points, uint64_t seed) {
-        const SunDisc& sun = environment.sun();
-        double mean = luminance(sun.radiance) * double(sun.solid_angle()) / (4 * pi_d);
-        double illuminance = environment.sun_illuminance();
+        const Disc sun = environment.discs().empty() ? Disc() : environment.discs()[0];
+        double mean = luminance(sun.mean_radiance()) * double(sun.solid_angle()) / (4 * pi_d);
+        double illuminance = environment.disc_illuminance();
         const int rows = height * points, columns = width * points;
         for (int y = 0; y < rows; ++y) {
             const double solid_angle = texel_solid_angle(columns, rows, y);
             for (int x = 0; x < columns; ++x) {
                 const Vec3 direction = direction_at((x + 0.5) / columns, (y + 0.5) / rows);
-                const Rgb disc = in_disc(sun, direction) ? sun.radiance : Rgb(0);
+                const Rgb disc = sun.radiance(direction);
                 const double sky = luminance(environment.radiance(direction) - disc);
                 mean += sky * solid_angle / (4 * pi_d);
                 illuminance += sky * solid_angle * std::max(0.0f, direction.y);
@@ -163,14 +203,14 @@ TEST_CASE("sampling finds the light that quadrature finds") {
         CHECK(luminance(environment.mean_radiance()) == doctest::Approx(mean).epsilon(width > 100 ? 1e-4 : 0.01));
         CHECK(environment.horizontal_illuminance() == doctest::Approx(illuminance).epsilon(width > 100 ? 1e-3 : 0.03));
     };
-    check(make_sky(settings), 512, 256, 2, 11);
-    check(Environment(rough_picture(33, 17), small_sun()), 33, 17, 16, 12);
+    check(make_sky(standard_sky_tables(), settings), 1024, 512, 2, 11);
+    check(Environment(rough_picture(33, 17), {small_sun()}), 33, 17, 16, 12);
     check(Environment(one_bright_texel(32, 16, 5, 6)), 32, 16, 16, 13);
     check(Environment::uniform({1, 2, 3}), 32, 16, 4, 14);
 }
 
 TEST_CASE("a sample carries the radiance and pdf of its direction") {
-    const Environment environment(rough_picture(33, 17), small_sun());
+    const Environment environment(rough_picture(33, 17), {small_sun()});
     for (int i = 0; i < 10000; ++i) {
         const EnvironmentSample s = draw(environment, 21, i);
         CHECK(s.radiance == environment.radiance(s.wi));
@@ -203,7 +243,7 @@ TEST_CASE("no sample of a picture weighs more than sixteen times the mean") {
 }
 
 TEST_CASE("the sun's disc contains the directions sampled in it") {
-    const Environment environment(Image<Rgb>(4, 2), small_sun());
+    const Environment environment(Image<Rgb>(4, 2), {small_sun()});
     int outside = 0;
     const int count = 100000;
     for (int i = 0; i < count; ++i) outside += is_black(draw(environment, 51, i).radiance);

@@ -53,7 +53,7 @@ TEST_CASE("the picture goes on smoothly where its left and right edge meet") {
 }
 
 TEST_CASE("an environment without light is black and never sampled") {
-    Environment dimmed(rough_picture(8, 4), small_sun());
+    Environment dimmed(rough_picture(8, 4), {small_sun()});
     CHECK(!dimmed.is_black());
     dimmed.multiply(0);
     for (const Environment& environment :
@@ -65,11 +65,11 @@ TEST_CASE("an environment without light is black and never sampled") {
         CHECK(is_black(environment.sample({0.5f, 0.5f}, 0.5f).radiance));
         CHECK(environment.horizontal_illuminance() == 0);
     }
-    CHECK(!Environment(Image<Rgb>(8, 4), small_sun()).is_black());
+    CHECK(!Environment(Image<Rgb>(8, 4), {small_sun()}).is_black());
 }
 
 TEST_CASE("brightness scales and directions stay") {
-    Environment environment(rough_picture(33, 17), small_sun());
+    Environment environment(rough_picture(33, 17), {small_sun()});
     const Environment before = environment;
     environment.multiply(float(50000 / environment.horizontal_illuminance()));
     CHECK(environment.horizontal_illuminance() == doctest::Approx(50000).epsilon(1e-6));
@@ -94,7 +94,7 @@ TEST_CASE("pictures are checked when they come in") {
 }
 
 TEST_CASE("directions close to a pole and on the seam have finite radiance and pdf") {
-    const Environment environment(rough_picture(33, 17), small_sun());
+    const Environment environment(rough_picture(33, 17), {small_sun()});
     for (const Vec3 d : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(-1, 0, 0.0f), Vec3(-1, 0, -0.0f), Vec3(1e-20f, 1, -1e-20f),
                          Vec3(-1, 1e-30f, 1e-30f)}) {
         CHECK(is_finite(environment.radiance(d)));

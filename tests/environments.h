@@ -20,10 +20,10 @@ inline Image<Rgb> rough_picture(int width, int height) {
     return picture;
 }
 
-inline SunDisc small_sun() {
-    SunDisc sun;
+inline Disc small_sun() {
+    Disc sun;
     sun.direction = Vec3(direction_from_azimuth(radians_from_degrees(130), radians_from_degrees(35)));
-    sun.radiance = {9e6f, 8e6f, 6e6f};
+    sun.strips = {{9e6f, 8e6f, 6e6f}};
     return sun;
 }
 

@@ -23,6 +23,7 @@ int run(int argc, const char* const* argv) {
     add_scenes_command(app);
     add_inspect_command(app);
     add_validate_command(app);
+    add_sky_command(app);
     try {
         app.parse(argc, argv);
         return int(ExitCode::ok);

@@ -69,8 +69,8 @@ void render_command(const RenderOptions& options) {
     display.paper = settings.streaks.composition == Composition::paper;
     DisplayView check_view(options.view);
     const auto progress_style = Progress::style_from_name(options.progress);
-    const Environment environment = make_environment(options.light, !options.rain.empty());
     set_thread_count(options.threads);
+    const Environment environment = make_environment(options.light, !options.rain.empty());
 
     Scene scene = load_gltf(options.scene);
     for (const std::string& warning : scene.warnings)

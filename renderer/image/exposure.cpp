@@ -6,14 +6,17 @@
 namespace pluvia {
 namespace {
 
-constexpr double saturation_factor = 1.2;  // 78 / (100 * q) with q = 0.65; ISO 12232, Lagarde and de Rousiers 2014
-constexpr double dark_limit_stop = 6;  // log2 of 64 cd/m2
-constexpr double mid_grey = 0.18;
+constexpr double saturation_factor = 1.2;      // 78 / (100 * q) with q = 0.65; ISO 12232, Lagarde and de Rousiers 2014
+constexpr double meter_constant = 12.5 / 100;  // K over ISO 100
+constexpr double day_ev = 8, night_ev = 4, night_gain = 0.5;
+constexpr double dark_ev = 1, dark_slope = 0.25;
 constexpr double low_percentile = 0.05, high_percentile = 0.95;
 
 }  // namespace
 
-float exposure_scale(double ev100) { return float(1 / (saturation_factor * std::exp2(ev100))); }
+float exposure_scale(double ev100) {
+    return float(1 / (saturation_factor * std::exp2(ev100)));
+}
 
 void LuminanceHistogram::add(Rgb radiance) {
     const float y = luminance(radiance);
@@ -40,11 +43,9 @@ double LuminanceHistogram::auto_ev100() const {
         log_sum += weight * (min_stop + (i + 0.5) / bins_per_stop);
         before = after;
     }
-    const double mean_stop = log_sum / weight_sum;
-    // Darker than a bright room: each stop less of light is shown as a quarter of a stop less, down to two stops.
-    const double below_day = std::max(0.0, dark_limit_stop - mean_stop);
-    const double shown_grey = mid_grey * std::exp2(-std::min(2.0, below_day / 4));
-    const double ev100 = mean_stop - std::log2(shown_grey * saturation_factor);
+    const double metered = log_sum / weight_sum - std::log2(meter_constant);
+    double ev100 = metered - night_gain * std::clamp((day_ev - metered) / (day_ev - night_ev), 0.0, 1.0);
+    if (ev100 < dark_ev) ev100 = dark_ev + dark_slope * (ev100 - dark_ev);
     return std::clamp(ev100, min_auto_ev100, max_auto_ev100);
 }
 

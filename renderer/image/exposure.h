@@ -9,8 +9,9 @@
 
 namespace pluvia {
 
-/// Exposure values at ISO 100 that automatic exposure keeps to: starlight to snow in the sun, with room on both sides.
-constexpr double min_auto_ev100 = -8, max_auto_ev100 = 20;
+/// Exposure values at ISO 100 that automatic exposure keeps to: a night without moon or town, to snow in the sun with
+/// room above.
+constexpr double min_auto_ev100 = -2, max_auto_ev100 = 20;
 
 /// Factor from luminance in cd/m2 to exposed light, where 1 is the brightest that a sensor at ISO 100 records.
 /// Source: Lagarde and de Rousiers 2014, "Moving Frostbite to PBR", section 5.1.2, q = 0.65 (ISO 12232 saturation
@@ -24,9 +25,11 @@ public:
     void add(Rgb radiance);
     void merge(const LuminanceHistogram& other);
 
-    /// Exposure value that shows the mean log luminance, taken between the 5th and 95th percentile, as 0.18 by day. Below
-    /// 64 cd/m2 each stop less of light is shown a quarter of a stop darker, down to two stops: night stays night. Within
-    /// min_auto_ev100 to max_auto_ev100, and 0 when nothing was counted.
+    /// Exposure value of a light meter, log2(8 L) (reflected light, K = 12.5, ISO 2720), with L the geometric mean of
+    /// the luminances between the 5th and 95th percentile. From EV 8 down to 4 half a stop brighter comes in, as
+    /// pictures of lit nights are taken; below 1 it follows a quarter of the way, so that dark nights look dark. Within
+    /// min_auto_ev100 to max_auto_ev100, and 0 when nothing was counted. Of a sequence one value, of the histograms of
+    /// all its frames merged, keeps the light from pulsing.
     double auto_ev100() const;
 
 private:
