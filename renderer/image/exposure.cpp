@@ -8,7 +8,7 @@ namespace {
 
 constexpr double saturation_factor = 1.2;      // 78 / (100 * q) with q = 0.65; ISO 12232, Lagarde and de Rousiers 2014
 constexpr double meter_constant = 12.5 / 100;  // K over ISO 100
-constexpr double day_ev = 8, night_ev = 4, night_gain = 0.5;
+constexpr double day_ev = 8, night_ev = 4, night_loss = 0.5;
 constexpr double dark_ev = 1, dark_slope = 0.25;
 constexpr double low_percentile = 0.05, high_percentile = 0.95;
 
@@ -44,7 +44,7 @@ double LuminanceHistogram::auto_ev100() const {
         before = after;
     }
     const double metered = log_sum / weight_sum - std::log2(meter_constant);
-    double ev100 = metered - night_gain * std::clamp((day_ev - metered) / (day_ev - night_ev), 0.0, 1.0);
+    double ev100 = metered + night_loss * std::clamp((day_ev - metered) / (day_ev - night_ev), 0.0, 1.0);
     if (ev100 < dark_ev) ev100 = dark_ev + dark_slope * (ev100 - dark_ev);
     return std::clamp(ev100, min_auto_ev100, max_auto_ev100);
 }

@@ -26,8 +26,8 @@ public:
     void merge(const LuminanceHistogram& other);
 
     /// Exposure value of a light meter, log2(8 L) (reflected light, K = 12.5, ISO 2720), with L the geometric mean of
-    /// the luminances between the 5th and 95th percentile. From EV 8 down to 4 half a stop brighter comes in, as
-    /// pictures of lit nights are taken; below 1 it follows a quarter of the way, so that dark nights look dark. Within
+    /// the luminances between the 5th and 95th percentile. From EV 8 down to 4 pictures turn half a stop darker,
+    /// as those of lit nights are taken; below 1 it follows a quarter of the way, so that dark nights look dark. Within
     /// min_auto_ev100 to max_auto_ev100, and 0 when nothing was counted. Of a sequence one value, of the histograms of
     /// all its frames merged, keeps the light from pulsing.
     double auto_ev100() const;
