@@ -8,11 +8,10 @@ namespace pluvia {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr double ozone_bottom = 10,
-                 ozone_top = 40;  // km, of a triangle; Bruneton and Neyret 2008
+// Of a triangle, in km. Source: Bruneton and Neyret 2008.
+constexpr double ozone_bottom = 10, ozone_peak = 25, ozone_top = 40;
 
-/// Optical depth of all air above sea level. Source: Hansen and Travis 1974,
-/// eq. 2.30; wavelength in micrometres.
+/// Optical depth of all air above sea level. Source: Hansen and Travis 1974, eq. 2.30; wavelength in micrometres.
 double rayleigh_depth(double wavelength) {
     const double l2 = 1 / (wavelength * wavelength);
     return 0.008569 * l2 * l2 * (1 + 0.0113 * l2 + 0.00013 * l2 * l2);
@@ -61,8 +60,8 @@ Atmosphere::Amounts Atmosphere::density(double height) const {
     size_t k = 1;
     while (k + 1 < air.size() && air[k].height < h) ++k;
     const double t = (h - air[k - 1].height) / (air[k].height - air[k - 1].height);
-    const double ozone = h < ozone_peak_height_ ? (h - ozone_bottom) / (ozone_peak_height_ - ozone_bottom)
-                                                : (ozone_top - h) / (ozone_top - ozone_peak_height_);
+    const double ozone =
+        h < ozone_peak ? (h - ozone_bottom) / (ozone_peak - ozone_bottom) : (ozone_top - h) / (ozone_top - ozone_peak);
     return {std::exp(log_air_[k - 1] + t * (log_air_[k] - log_air_[k - 1])), std::exp(-h / settings.aerosol_height),
             std::max(0.0, ozone)};
 }

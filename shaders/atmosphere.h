@@ -69,7 +69,6 @@ struct Atmosphere {
     Bands scaled_scattering(const Amounts& density) const;
 
 private:
-    double ozone_peak_height_ = 25;
     std::vector<double> log_air_;  // of settings.air
 };
 

@@ -35,7 +35,7 @@ Atmosphere::Amounts integrate(const Atmosphere& atmosphere, double r, double mu,
 }  // namespace
 
 bool hits_ground(const Atmosphere& atmosphere, double r, double mu) {
-    return mu < 0 && square_difference(r * mu, 0) >= square_difference(r, atmosphere.ground_radius);
+    return mu < 0 && r * r * mu * mu >= square_difference(r, atmosphere.ground_radius);
 }
 
 double distance_to_ground(const Atmosphere& atmosphere, double r, double mu) {

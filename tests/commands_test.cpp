@@ -285,6 +285,8 @@ TEST_CASE("sky tells the light in numbers, and its panorama gives the same light
     CHECK(j["illuminance_direct_lux"].get<double>() + j["illuminance_sky_lux"].get<double>() == doctest::Approx(total));
     CHECK(j["sun"]["elevation_degrees"].get<double>() > 20);
     CHECK(j["moon"]["lit_share"].get<double>() <= 1);
+    CHECK(j["color_temperature_kelvin"]["direct"].get<double>() < j["color_temperature_kelvin"]["total"].get<double>());
+    CHECK(j["color_temperature_kelvin"]["total"].get<double>() < j["color_temperature_kelvin"]["sky"].get<double>());
     CHECK(Environment(read_radiance(exr)).horizontal_illuminance() == doctest::Approx(total).epsilon(0.005));
     const Json overcast = Json::parse(run_program("sky --sun-elevation 30 --weather overcast --json").out);
     CHECK(overcast["illuminance_direct_lux"] == 0);

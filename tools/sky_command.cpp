@@ -27,12 +27,21 @@ double degrees(double radians) {
     return radians * (180 / std::numbers::pi);
 }
 
-/// Light on the horizontal from the picture's upper half.
-Rgb sky_irradiance(const Image<Rgb>& picture) {
+/// Light of the discs on the horizontal.
+Rgb direct_irradiance(const Environment& sky) {
+    Rgb sum;
+    for (const Disc& disc : sky.discs())
+        sum += disc.mean_radiance() * (disc.solid_angle() * std::max(0.0f, disc.direction.y));
+    return sum;
+}
+
+/// All light on the horizontal, from the picture's upper half.
+Rgb horizontal_irradiance(const Image<Rgb>& picture) {
     double r = 0, g = 0, b = 0;
     for (int y = 0; y < picture.height / 2; ++y) {
-        const double elevation = std::numbers::pi * (0.5 - (y + 0.5) / picture.height);
-        const double weight = std::sin(elevation) * std::cos(elevation);
+        const double elevation = std::numbers::pi * (0.5 - (y + 0.5) / picture.height),
+                     step = std::numbers::pi / picture.height;
+        const double weight = std::sin(elevation) * std::cos(elevation) * step * step;
         for (int x = 0; x < picture.width; ++x) {
             const Rgb c = picture.at(x, y);
             r += c.r * weight, g += c.g * weight, b += c.b * weight;
@@ -49,12 +58,15 @@ Json temperature(Rgb light) {
 
 Json report(const Environment& sky, const Image<Rgb>& picture, const SkySettings& settings) {
     Json j;
-    const Rgb zenith = sky.radiance({0, 1, 0}), all = sky_irradiance(picture);
+    const Rgb zenith = sky.radiance({0, 1, 0}), all = horizontal_irradiance(picture), direct = direct_irradiance(sky);
     j["illuminance_total_lux"] = sky.horizontal_illuminance();
     j["illuminance_direct_lux"] = sky.disc_illuminance();
     j["illuminance_sky_lux"] = sky.sky_illuminance();
     j["zenith_luminance_cd_per_m2"] = luminance(zenith);
-    j["color_temperature_kelvin"] = {{"zenith", temperature(zenith)}, {"all", temperature(all)}};
+    j["color_temperature_kelvin"] = {{"total", temperature(all)},
+                                     {"direct", temperature(direct)},
+                                     {"sky", temperature(all - direct)},
+                                     {"zenith", temperature(zenith)}};
     j["sun"] = {{"elevation_degrees", degrees(settings.sun_elevation)},
                 {"azimuth_degrees", degrees(settings.sun_azimuth)},
                 {"distance_au", settings.sun_distance}};
@@ -66,18 +78,21 @@ Json report(const Environment& sky, const Image<Rgb>& picture, const SkySettings
     return j;
 }
 
-std::string kelvin_text(const Json& value) {
-    return value.is_null() ? "bluer than any black body" : fmt::format("{:.0f} K", value.get<double>());
+std::string kelvin_text(const Json& j, const char* light) {
+    const Json& value = j["color_temperature_kelvin"][light];
+    return value.is_null() ? "no black body's colour" : fmt::format("{:.0f} K", value.get<double>());
 }
 
 void print(const Json& j) {
     const auto number = [&](const char* key) { return j[key].get<double>(); };
-    std::cout << fmt::format("illuminance     {:.6g} lux: {:.6g} direct, {:.6g} from the sky\n",
-                             number("illuminance_total_lux"), number("illuminance_direct_lux"),
-                             number("illuminance_sky_lux"));
+    std::cout << fmt::format("illuminance     {:.6g} lux, {}\n", number("illuminance_total_lux"),
+                             kelvin_text(j, "total"));
+    if (number("illuminance_direct_lux") > 0)
+        std::cout << fmt::format("  direct        {:.6g} lux, {}\n", number("illuminance_direct_lux"),
+                                 kelvin_text(j, "direct"));
+    std::cout << fmt::format("  sky           {:.6g} lux, {}\n", number("illuminance_sky_lux"), kelvin_text(j, "sky"));
     std::cout << fmt::format("zenith          {:.6g} cd/m2, {}\n", number("zenith_luminance_cd_per_m2"),
-                             kelvin_text(j["color_temperature_kelvin"]["zenith"]));
-    std::cout << fmt::format("all light       {}\n", kelvin_text(j["color_temperature_kelvin"]["all"]));
+                             kelvin_text(j, "zenith"));
     const auto body = [&](const char* key) {
         return fmt::format("elevation {:.2f}, azimuth {:.2f} degrees", j[key]["elevation_degrees"].get<double>(),
                            j[key]["azimuth_degrees"].get<double>());
