@@ -12,7 +12,7 @@ using namespace pluvia;
 
 namespace {
 
-constexpr Draw all_draws[] = {Draw::lobe,      Draw::bsdf,     Draw::light_choice, Draw::light_point,
+constexpr Draw all_draws[] = {Draw::lobe,      Draw::bsdf,     Draw::light_choice, Draw::light_point, Draw::light_pick,
                               Draw::sky_point, Draw::roulette, Draw::pixel,        Draw::lens};
 
 /// Sum of products of centred numbers in units of its standard deviation, for numbers that are independent.

@@ -75,7 +75,8 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, 
     counters.count(Feature::streak_path);
     Rgb sum;
     for (int i = 0; i < count; ++i)
-        if (tracer_->is_visible(position, candidates[i].light, {sampler.key(candidates[i].draw)}, counters))
+        if (is_visible(tracer_->ray_scene(), position, candidates[i].light, {sampler.key(candidates[i].draw)},
+                       counters))
             sum += candidates[i].contribution;
     const Vec3 wi = sample_drop_phase(direction, sampler.get_2d(Draw::streak_phase));
     const float pdf = drop_phase(dot(wi, direction));

@@ -1,0 +1,96 @@
+#include "renderer/transport/direct_light.h"
+
+#include <optional>
+
+namespace pluvia {
+namespace {
+
+// Shadow rays stop a little before the light, so that an emissive triangle does not shade itself. Relative, because
+// both ends carry the rounding of the distance.
+constexpr float before_light = 1 - 2e-4f;
+
+/// Point i of a few that share one random point: its shift on the torus by the sequence R2 (Roberts 2018).
+Vec2 shifted(Vec2 u, int i) {
+    const auto wrap = [](float x) { return std::min(x - std::floor(x), 0x1.fffffep-1f); };
+    return {wrap(u.x + float(i) * 0.754877666f), wrap(u.y + float(i) * 0.569840291f)};
+}
+
+/// Of all samples drawn so far one, kept with a probability in proportion to what it would bring if it were visible.
+class Pick {
+public:
+    explicit Pick(float u) : u_(u) {}
+
+    /// count: samples drawn of this kind.
+    void add(const Vertex& v, const LightSample& light, int count) {
+        if (is_black(light.radiance) || dot(light.wi, v.surface.geometric_normal) <= 0) return;
+        const BsdfValue value = evaluate(v.bsdf, v.basis.to_local(light.wi));
+        const float expected = float(count) * light.pdf;
+        const float mis = light.delta ? 1.0f : power_heuristic(expected, value.pdf);
+        const Rgb contribution = value.f_cos * light.radiance * (mis / expected);
+        const float weight = luminance(contribution);
+        if (!(weight > 0)) return;
+        total_ += weight;
+        const float share = weight / total_;
+        if (u_ < share) {
+            light_ = light;
+            contribution_ = contribution * (1 / weight);
+            u_ = u_ / share;
+        } else {
+            u_ = (u_ - share) / (1 - share);
+        }
+    }
+    const std::optional<LightSample>& light() const { return light_; }
+    /// Unbiased estimate of the sum of all samples, if the kept one is visible.
+    Rgb estimate() const { return contribution_ * total_; }
+
+private:
+    float u_, total_ = 0;
+    Rgb contribution_;
+    std::optional<LightSample> light_;
+};
+
+Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, Draw draw, Counters& counters) {
+    if (!pick.light()) return Rgb(0);
+    const Vec3 from = offset_from_surface(v.surface.position, v.surface.geometric_normal);
+    const OpacityTest opacity{v.sampler.key(draw, uint32_t(v.bounce))};
+    return is_visible(ray_scene, from, *pick.light(), opacity, counters) ? pick.estimate() : Rgb(0);
+}
+
+/// Choice i of a few, stratified.
+float stratified(float u, int i, int count) {
+    return std::min((float(i) + u) / float(count), 0x1.fffffep-1f);
+}
+
+}  // namespace
+
+bool is_visible(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
+                Counters& counters) {
+    return !ray_scene.occluded({from, light.wi, light.distance * before_light}, opacity, counters);
+}
+
+Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& v, Counters& counters) {
+    Rgb sum;
+    const Vec2 choice = v.u.get_2d(Draw::light_choice), pick_u = v.u.get_2d(Draw::light_pick);
+    if (lights.has_local()) {
+        counters.count(Feature::local_light);
+        const Receiver receiver{v.surface.position, v.surface.shading_normal};
+        Pick pick(pick_u.x);
+        for (int i = 0; i < local_light_samples; ++i)
+            if (const auto light = lights.sample_local(receiver, stratified(choice.x, i, local_light_samples),
+                                                       shifted(v.u.get_2d(Draw::light_point), i)))
+                pick.add(v, *light, local_light_samples);
+        sum += visible_part(ray_scene, pick, v, Draw::light_point, counters);
+    }
+    if (lights.has_distant()) {
+        counters.count(Feature::distant_light);
+        Pick pick(pick_u.y);
+        for (int i = 0; i < distant_light_samples; ++i)
+            if (const auto light = lights.sample_distant(stratified(choice.y, i, distant_light_samples),
+                                                         shifted(v.u.get_2d(Draw::sky_point), i)))
+                pick.add(v, *light, distant_light_samples);
+        sum += visible_part(ray_scene, pick, v, Draw::sky_point, counters);
+    }
+    return sum;
+}
+
+}  // namespace pluvia

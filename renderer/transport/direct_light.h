@@ -1,0 +1,45 @@
+// Direct light: what a surface scatters of the light that reaches it straight from lamps and sky.
+// Of several light samples the one that would bring most is tested for visibility: a shadow ray costs more than asking
+// a Bsdf and a light, and neither the light tree nor the sky's tables know which of them a glossy surface mirrors.
+// Source: Talbot, Cline and Egbert 2005, "Importance Resampling for Global Illumination".
+#pragma once
+
+#include "renderer/accel/ray_scene.h"
+#include "renderer/core/random.h"
+#include "renderer/core/sampling.h"
+#include "renderer/scene/lights.h"
+
+namespace pluvia {
+
+/// Light samples of each kind that compete at a vertex for one shadow ray.
+constexpr int local_light_samples = 8, distant_light_samples = 2;
+
+/// Where light samples were drawn, as far as the weight of a ray that left there needs it.
+struct RayOrigin {
+    float pdf = 0;      // of the ray's direction, per solid angle; 0 = no light sample was drawn there (camera, delta)
+    Receiver receiver;  // what the light samples were drawn for
+    int local_samples = 1, distant_samples = 1;
+
+    /// Weight of light that the ray has met against samples of it, where pdf > 0. light_pdf: of one sample.
+    float weight_of_local(float light_pdf) const { return power_heuristic(pdf, float(local_samples) * light_pdf); }
+    float weight_of_distant(float light_pdf) const { return power_heuristic(pdf, float(distant_samples) * light_pdf); }
+};
+
+/// A scattering vertex of a path.
+struct Vertex {
+    const Surface& surface;
+    const PreparedBsdf& bsdf;
+    const ShadingBasis& basis;
+    const Sampler& sampler;
+    const VertexNumbers& u;
+    int bounce;
+};
+
+/// Share of a light sample that arrives at a point: 0 or 1.
+bool is_visible(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
+                Counters& counters);
+
+/// Radiance that the surface scatters towards the ray it was met by, weighed against sampling the Bsdf.
+Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& vertex, Counters& counters);
+
+}  // namespace pluvia
