@@ -5,6 +5,7 @@
 
 #include "renderer/core/random.h"
 #include "renderer/core/vec.h"
+#include "tools/validate/running_mean.h"
 
 #include <cstdint>
 #include <functional>
@@ -23,26 +24,6 @@ inline float uniform(uint64_t seed, uint64_t index, uint64_t dimension) {
 inline Vec2 uniform_2d(uint64_t seed, uint64_t index, uint64_t dimension) {
     return {uniform(seed, index, dimension), uniform(seed, index, dimension + 1)};
 }
-
-/// Mean and variance of numbers that come one by one. Source: Welford 1962.
-class RunningMean {
-public:
-    void add(double value);
-    int64_t count() const { return count_; }
-    double mean() const { return mean_; }
-    /// Of the numbers, with count - 1 in the denominator; 0 for less than two.
-    double variance() const;
-    /// Of the mean, for independent numbers.
-    double standard_error() const;
-
-    /// Five sigma; tolerance: error that the compared value itself may have.
-    bool agrees_with(double expected, double tolerance = 0) const;
-    bool at_most(double bound, double tolerance = 0) const;
-
-private:
-    int64_t count_ = 0;
-    double mean_ = 0, sum_of_squares_ = 0;
-};
 
 /// Upper regularised incomplete gamma function Q(a, x), a > 0, x >= 0.
 double regularized_gamma_q(double a, double x);

@@ -4,10 +4,12 @@
 namespace pluvia {
 
 void add_validate_command(CLI::App& app) {
-    auto* validate = app.add_subcommand("validate", "how far pictures are from a reference");
+    auto* validate =
+        app.add_subcommand("validate", "how far pictures are from a reference, and light from what is known on paper");
     validate->require_subcommand(1);
     validate->footer("Example:\n  pluvia validate compare a/frame.exr b/frame.exr");
     add_compare_command(*validate);
+    add_closed_forms_command(*validate);
 }
 
 }  // namespace pluvia

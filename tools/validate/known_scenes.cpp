@@ -1,9 +1,6 @@
-#include "tests/test_scenes.h"
-
-#include "tests/statistics.h"
+#include "tools/validate/known_scenes.h"
 
 #include <cmath>
-#include <cstring>
 
 namespace pluvia {
 namespace {
@@ -72,6 +69,12 @@ int add_sphere(Scene& scene, Vec3 centre, float radius, int segments, const Mate
     return add_mesh(scene, mesh, material);
 }
 
+Scene make_plane(const Material& material) {
+    Scene scene;
+    add_quad(scene, {-50, 0, 50}, {100, 0, 0}, {0, 0, -100}, material);
+    return scene;
+}
+
 Scene make_court(const Material& material) {
     Scene scene;
     add_quad(scene, {-6, 0, 4}, {12, 0, 0}, {0, 0, -12}, material);
@@ -94,49 +97,6 @@ View look_at(Vec3d eye, Vec3d target, int width, int height, double focal_pixels
 
 View court_view(int width, int height) {
     return look_at({1, 1.6, 3.5}, {0, 1.4, -4}, width, height, 1.2 * width);
-}
-
-double Picture::mean(const std::string& channel) const {
-    double sum = 0;
-    for (const float v : plane(channel)) sum += v;
-    return sum / double(plane(channel).size());
-}
-
-bool operator==(const Picture& a, const Picture& b) {
-    if (a.planes.size() != b.planes.size()) return false;
-    for (const auto& [channel, plane] : a.planes) {
-        const auto other = b.planes.find(channel);
-        if (other == b.planes.end() || other->second.size() != plane.size() ||
-            std::memcmp(plane.data(), other->second.data(), plane.size() * sizeof(float)) != 0)
-            return false;
-    }
-    return true;
-}
-
-Picture render_picture(const Scene& scene, const Environment& environment, const View& view,
-                       const RenderSettings& settings) {
-    Picture picture;
-    picture.width = view.width, picture.height = view.height;
-    const auto channels = layer_channels(settings.rain.intensities_mm_per_h);
-    picture.report = render(
-        scene, environment, view, settings,
-        [&](const Band& band) {
-            for (size_t c = 0; c < channels.size(); ++c)
-                picture.planes[channels[c]].insert(picture.planes[channels[c]].end(), band.planes[c].begin(),
-                                                   band.planes[c].end());
-        },
-        [](double) { return true; });
-    return picture;
-}
-
-Estimate estimate(const Scene& scene, const Environment& environment, const View& view, RenderSettings settings,
-                  const std::string& channel, int seeds) {
-    RunningMean mean;
-    for (int k = 0; k < seeds; ++k) {
-        settings.seed = 1000 + uint64_t(k);
-        mean.add(render_picture(scene, environment, view, settings).mean(channel));
-    }
-    return {mean.mean(), mean.standard_error()};
 }
 
 }  // namespace pluvia

@@ -1,0 +1,52 @@
+#include "tools/validate/rendered_picture.h"
+
+#include "tools/validate/running_mean.h"
+
+#include <cstring>
+
+namespace pluvia {
+
+double Picture::mean(const std::string& channel) const {
+    double sum = 0;
+    for (const float v : plane(channel)) sum += v;
+    return sum / double(plane(channel).size());
+}
+
+bool operator==(const Picture& a, const Picture& b) {
+    if (a.planes.size() != b.planes.size()) return false;
+    for (const auto& [channel, plane] : a.planes) {
+        const auto other = b.planes.find(channel);
+        if (other == b.planes.end() || other->second.size() != plane.size() ||
+            std::memcmp(plane.data(), other->second.data(), plane.size() * sizeof(float)) != 0)
+            return false;
+    }
+    return true;
+}
+
+Picture render_picture(const Scene& scene, const Environment& environment, const View& view,
+                       const RenderSettings& settings) {
+    Picture picture;
+    picture.width = view.width, picture.height = view.height;
+    const auto channels = layer_channels(settings.rain.intensities_mm_per_h);
+    picture.report = render(
+        scene, environment, view, settings,
+        [&](const Band& band) {
+            for (size_t c = 0; c < channels.size(); ++c)
+                picture.planes[channels[c]].insert(picture.planes[channels[c]].end(), band.planes[c].begin(),
+                                                   band.planes[c].end());
+        },
+        [](double) { return true; });
+    return picture;
+}
+
+Estimate estimate(const Scene& scene, const Environment& environment, const View& view, RenderSettings settings,
+                  const std::string& channel, int seeds, uint64_t first_seed) {
+    RunningMean mean;
+    for (int k = 0; k < seeds; ++k) {
+        settings.seed = settings.rain.seed = first_seed + uint64_t(k);
+        mean.add(render_picture(scene, environment, view, settings).mean(channel));
+    }
+    return {mean.mean(), mean.standard_error()};
+}
+
+}  // namespace pluvia
