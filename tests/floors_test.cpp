@@ -37,6 +37,8 @@ const std::map<std::string, std::string> doors = {
     {"embree", "renderer/accel/ray_scene"},
     {"tbb/", "renderer/core/parallel"},
     {"tiny_gltf", "renderer/scene/gltf_"},
+    {"draco/", "renderer/scene/gltf_draco"},
+    {"meshoptimizer", "renderer/scene/gltf_meshopt"},
     {"OpenImageIO", "renderer/image/image_io"},
     {"OpenEXR", "renderer/image/exr"},
     {"Imf", "renderer/image/exr"},

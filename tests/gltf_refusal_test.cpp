@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <limits>
 
 #include <sys/resource.h>
@@ -101,21 +102,30 @@ TEST_CASE("numbers that lie outside their buffers are refused") {
         {"/bufferViews/3/byteLength", 100000, {"image 0 \"bricks\"", "buffer view 3"}},
         {"/bufferViews/2/buffer", 1, {"accessor 2", "buffer does not exist (got 1"}},
         {"/bufferViews/2/buffer", -1, {"accessor 2", "buffer does not exist (got -1"}},
-        {"/accessors/2/bufferView", nullptr, {"accessor 2", "buffer view does not exist"}},
         {"/accessors/2/bufferView", -2, {"accessor 2", "got -2"}},
     });
 }
 
 TEST_CASE("numbers of a kind that cannot be meant are refused") {
-    const Json sparse_part = {{"bufferView", 0}, {"componentType", 5125}};
+    const auto sparse = [](int count, int view, int index_type, int value_view) {
+        return Json{{"count", count},
+                    {"indices", {{"bufferView", view}, {"componentType", index_type}}},
+                    {"values", {{"bufferView", value_view}}}};
+    };
     check_refused({
+        {"/accessors/2/sparse", sparse(4, 1, 5123, 2), {"accessor 2", "got 4 at", "at most 3"}},
+        {"/accessors/2/sparse", sparse(-1, 1, 5123, 2), {"accessor 2", "got -1 at"}},
+        {"/accessors/2/sparse", sparse(3, 9, 5123, 2), {"accessor 2: sparse indices", "got 9"}},
+        {"/accessors/2/sparse", sparse(3, 1, 5123, 9), {"accessor 2: sparse values", "got 9"}},
+        {"/accessors/2/sparse", sparse(3, 1, 5125, 2), {"accessor 2: sparse indices", "outside"}},
+        {"/accessors/2/sparse", sparse(2, 1, 5130, 2), {"accessor 2: sparse indices", "unknown type"}},
         {"/accessors/2/sparse",
-         {{"count", 1}, {"indices", sparse_part}, {"values", sparse_part}},
-         {"accessor 2", "sparse"}},
+         sparse(2, 0, 5125, 2),
+         {"accessor 2", "an element that is not there", "got 1065353216"}},
         {"/accessors/2/type", "VEC2", {"accessor 2", "got 2 components, expected 3"}},
         {"/accessors/2/componentType", 5124, {"accessor 2"}},  // signed integers
         {"/accessors/2/componentType", 5130, {"accessor 2"}},  // doubles
-        {"/meshes/0/primitives/0/indices", 2, {"index accessor 2", "wrong type"}},
+        {"/meshes/0/primitives/0/indices", 2, {"accessor 2", "wrong type for indices"}},
         {"/meshes/0/primitives/0/attributes/POSITION", nullptr, {"mesh \"leaf\"", "no POSITION"}},
         {"/accessors/1/count", 2, {"mesh \"leaf\"", "got 2 indices"}},
         {"/accessors/0/count", 2, {"mesh \"leaf\"", "TEXCOORD_0", "got 2, expected 3"}},
@@ -133,6 +143,90 @@ TEST_CASE("vertices that are not there or nowhere are refused") {
     }
 }
 
+TEST_CASE("normals, colours and coordinates that are not finite are refused by accessor and element") {
+    for (const char* attribute : {"NORMAL", "TANGENT", "COLOR_0", "TEXCOORD_0", "TEXCOORD_1"}) {
+        const int components = std::string(attribute).starts_with("TEX") ? 2 : attribute[0] == 'N' ? 3 : 4;
+        GltfDraft draft;
+        std::vector<float> values(3 * size_t(components), 0.5f);
+        values.back() = std::numeric_limits<float>::quiet_NaN();
+        Json attributes = {{attribute, draft.add_floats(values, "VEC" + std::to_string(components))}};
+        if (attribute[0] == 'T' && components == 4)
+            attributes["NORMAL"] = draft.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+        draft.add_root({{"mesh", draft.add_triangle_mesh({{"attributes", attributes}})}});
+        check_refused(draft, {"mesh \"leaf\"", "accessor 0", "not finite", "element 2"});
+    }
+}
+
+TEST_CASE("files outside of the scene's folder are read only when that is allowed") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "scene");
+    GltfDraft draft = triangle_draft();
+    write(folder, "street.bin", draft.bytes);
+    draft.root["buffers"] = {{{"byteLength", draft.bytes.size()}, {"uri", "../street.bin"}}};
+    draft.bytes.clear();
+    const std::string path = write(folder, "scene/street.gltf", draft.gltf());
+    CHECK(refusal(path).find("buffer 0: its file lies outside of the scene's folder (got \"../street.bin\"") !=
+          std::string::npos);
+    CHECK(load_gltf(path, {.allow_outside = true}).meshes.size() == 1);
+    for (const std::string uri : {"%2e%2e/street.bin", "x/../../street.bin", "/etc/passwd"}) {
+        draft.root["buffers"][0]["uri"] = uri;
+        CHECK(refusal(write(folder, "scene/street.gltf", draft.gltf())).find("lies outside") != std::string::npos);
+    }
+    draft.root["buffers"][0]["uri"] = "x/../a%20b.bin";  // inside, and spelled as a URI
+    write(folder, "scene/a b.bin", read_file(folder / "street.bin"));
+    CHECK(load_gltf(write(folder, "scene/street.gltf", draft.gltf())).meshes.size() == 1);
+    draft.root["images"] = {{{"uri", "../secret.png"}}};
+    CHECK(refusal(write(folder, "scene/street.gltf", draft.gltf())).find("image 0") != std::string::npos);
+}
+
+TEST_CASE("buffers that are missing or short are refused") {
+    const TemporaryFolder folder;
+    GltfDraft draft = triangle_draft();
+    const std::string bytes = draft.bytes;
+    draft.bytes.clear();
+    const auto says = [&](const Json& buffer, const std::string& words) {
+        draft.root["buffers"] = {buffer};
+        const std::string message = refusal(write(folder, "short.gltf", draft.gltf()));
+        CAPTURE(message);
+        CHECK(message.find("buffer 0") != std::string::npos);
+        CHECK(message.find(words) != std::string::npos);
+    };
+    says({{"byteLength", 36}, {"uri", "missing.bin"}}, "\"missing.bin\"");
+    write(folder, "part.bin", bytes.substr(0, 30));
+    says({{"byteLength", 36}, {"uri", "part.bin"}}, "too short (got 30 bytes, expected 36)");
+    says({{"byteLength", 36}, {"uri", "data:application/octet-stream;base64,AAAA"}}, "got 3 bytes, expected 36");
+    says({{"byteLength", 3}, {"uri", "data:application/octet-stream;base64,A*AA"}}, "data URI");
+    says({{"byteLength", 36}}, "no uri");
+    says({{"uri", "part.bin"}}, "byteLength");
+    says({{"byteLength", -1}, {"uri", "part.bin"}}, "byteLength");
+}
+
+TEST_CASE("a kilobyte of JSON that speaks of many things is refused before memory is taken for them") {
+    const TemporaryFolder folder;
+    const int64_t before = peak_memory();
+    std::string many = "{\"asset\":{\"version\":\"2.0\"},\"materials\":[{}";
+    for (int i = 0; i < 200000; ++i) many += ",{}";
+    CHECK(refusal(write(folder, "many.gltf", many + "]}")).find("too many materials") != std::string::npos);
+    GltfDraft draft;  // one mesh of many primitives on many nodes
+    const int mesh = draft.add_triangle_mesh();
+    Json& primitives = draft.root["meshes"][mesh]["primitives"];
+    for (int i = 0; i < 2000; ++i) primitives.push_back(Json(primitives[0]));
+    for (int i = 0; i < 4000; ++i) draft.add_root({{"mesh", mesh}});
+    CHECK(refusal(write(folder, "placed.gltf", draft.gltf())).find("asks for more than") != std::string::npos);
+    draft = triangle_draft();  // zeros that take no bytes
+    draft.root["accessors"][0].erase("bufferView");
+    draft.root["accessors"][0]["count"] = 300000000;
+    CHECK(refusal(write(folder, "zeros.gltf", draft.gltf())).find("accessor 0") != std::string::npos);
+    CHECK(peak_memory() - before < int64_t(700) << 20);  // the budget of 256 MiB, twice while a vector grows
+}
+
+TEST_CASE("a .glb longer than its length field can say is refused at once") {
+    const TemporaryFolder folder;
+    const std::string path = write(folder, "large.glb", triangle_draft().glb());
+    std::filesystem::resize_file(path, uint64_t(5) << 30);  // takes no space on the disk
+    CHECK(refusal(path).find("a .glb holds less than 4 GiB") != std::string::npos);
+}
+
 TEST_CASE("references to what is not there are refused, negative ones too") {
     const std::string slot = "/materials/0/pbrMetallicRoughness/baseColorTexture/index";
     for (const int index : {-7, 99, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()})
@@ -144,7 +238,7 @@ TEST_CASE("references to what is not there are refused, negative ones too") {
             {"/meshes/0/primitives/0/attributes/TEXCOORD_0", index, {"mesh \"leaf\"", "accessor does not exist"}},
             {slot, index, {"material \"wall\"", "texture does not exist"}},
             {"/textures/0/source", index, {"texture 0", "image"}},
-            {"/images/0/bufferView", index, {"bufferView", "not found"}},
+            {"/images/0/bufferView", index, {"image 0", "buffer view does not exist"}},
             {"/scene", index, {"scene does not exist"}},
             {"/scenes/0/nodes/0", index, {"node does not exist"}},
             {"/nodes/0/children", {index}, {"node does not exist"}},
@@ -153,7 +247,7 @@ TEST_CASE("references to what is not there are refused, negative ones too") {
         {"/meshes/0/primitives/0/material",
          1,
          {"mesh \"leaf\"", "material does not exist"}},  // the first that is not there
-        {"/meshes/0/primitives/0/indices", 99, {"indices accessor out of bounds"}},
+        {"/meshes/0/primitives/0/indices", 99, {"mesh \"leaf\"", "accessor does not exist (got 99"}},
         {"/textures/0/source", nullptr, {"texture 0", "no image"}},
         {"/nodes/2/extensions/KHR_lights_punctual/light", "x", {"node \"lamp\""}},
         {"/scenes", nullptr, {"no scene"}},
@@ -191,6 +285,14 @@ TEST_CASE("nodes, cameras and lights that point nowhere are refused") {
         {light + "/type", "area", {"node \"lamp\"", "area"}},
         {"/cameras/0/perspective/yfov", 0, {"node \"eye\"", "yfov", "got 0"}},
         {"/cameras/0/perspective/yfov", 3.1416, {"node \"eye\"", "yfov"}},
+        {"/cameras/0/perspective/yfov", -1, {"node \"eye\"", "yfov", "got -1"}},
+        {"/cameras/0/perspective/znear", 0, {"node \"eye\"", "znear", "got 0"}},
+        {"/cameras/0/perspective/znear", -1, {"node \"eye\"", "znear", "got -1"}},
+        {"/cameras/0/perspective/zfar", -1, {"node \"eye\"", "zfar", "got -1"}},
+        {"/cameras/0/perspective/zfar", 0.05, {"node \"eye\"", "zfar", "above its znear"}},
+        {"/cameras/0/perspective/aspectRatio", -1, {"node \"eye\"", "aspectRatio"}},
+        {light + "/spot", {{"innerConeAngle", 1}, {"outerConeAngle", 0.5}}, {"node \"lamp\"", "cone angles"}},
+        {light + "/spot", {{"outerConeAngle", 7}}, {"node \"lamp\"", "cone angles"}},
     });
 }
 

@@ -29,6 +29,13 @@ void prepare_folder(const RenderOptions& options) {
     fs::remove(options.output + "/frame.json", error);  // it names a finished frame, and there is none until the end
 }
 
+/// m/s, as the file animates the camera.
+Vec3d velocity_of(const Scene& scene, const GltfContents& contents, const Camera& camera) {
+    for (size_t i = 0; i < scene.cameras.size(); ++i)
+        if (scene.cameras[i].name == camera.name) return contents.camera_velocities[i];
+    return {};
+}
+
 void report(const RenderOptions& options, const RenderReport& r, const DisplayReport& display, double ev100,
             const std::vector<double>& intensities) {
     if (options.json) {
@@ -59,7 +66,7 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
 
 void render_command(const RenderOptions& options) {
     // Everything is checked before anything is computed or written.
-    const CameraSettings camera_options = camera_settings(options);
+    CameraSettings camera_options = camera_settings(options);
     const RenderSettings settings = render_settings(options);
     const auto exposure = exposure_ev100(options);
     DisplaySettings display;
@@ -72,10 +79,13 @@ void render_command(const RenderOptions& options) {
     set_thread_count(options.threads);
     const Environment environment = make_environment(options.light, !options.rain.empty());
 
-    Scene scene = load_gltf(options.scene);
+    GltfContents contents;
+    Scene scene = load_gltf(
+        options.scene, {camera_options.mid_exposure, camera_options.exposure_time, options.allow_outside}, &contents);
     for (const std::string& warning : scene.warnings)
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     const Camera camera = find_camera(scene, options.camera);
+    if (options.camera_velocity.empty()) camera_options.velocity = velocity_of(scene, contents, camera);
     const uint64_t scene_hash = content_hash(scene);  // of the file, whatever is switched off
     if (lamp_count(scene) > 0 && !lamps_are_on(options.light, environment)) switch_off_lamps(scene);
     prepare_folder(options);

@@ -6,13 +6,15 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "glTF file, .glb or .gltf")->required();
     command.add_option("-o,--output", o.output, "folder for frame.exr, pictures and frame.json")->required();
 
+    command.add_flag("--allow-outside", o.allow_outside, "read files that the scene names outside of its folder");
+
     const auto* camera = "Camera";
     command.add_option("--camera", o.camera, "name or number; default: the first, or one that shows the whole scene")
         ->group(camera);
     command.add_option("--size", o.size, "WIDTHxHEIGHT in pixels; the vertical field of view stays")
         ->capture_default_str()
         ->group(camera);
-    command.add_option("--frame", o.frame, "number of the frame, at frame / fps seconds")
+    command.add_option("--frame", o.frame, "number of the frame; animations and rain are those at frame / fps seconds")
         ->capture_default_str()
         ->group(camera);
     command.add_option("--fps", o.fps, "frames per second")->capture_default_str()->group(camera);
@@ -25,7 +27,9 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--shutter", o.shutter, "exposure time in seconds, which makes the streaks")
         ->capture_default_str()
         ->group(camera);
-    command.add_option("--camera-velocity", o.camera_velocity, "X,Y,Z in m/s; slants the streaks")
+    command
+        .add_option("--camera-velocity", o.camera_velocity,
+                    "X,Y,Z in m/s; slants the streaks; default: as the file animates it")
         ->delimiter(',')
         ->expected(3)
         ->group(camera);
@@ -100,7 +104,8 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     };
     j["camera"] = o.camera, j["size"] = o.size, j["frame"] = o.frame, j["fps"] = o.fps;
     optional("focal-length", o.focal_length), optional("f-number", o.f_number), optional("focus", o.focus);
-    j["shutter"] = o.shutter, j["camera-velocity"] = o.camera_velocity;
+    j["shutter"] = o.shutter;
+    if (!o.camera_velocity.empty()) j["camera-velocity"] = o.camera_velocity;
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;
     j["streak-gain"] = o.streak_gain, j["streak-width"] = o.streak_width;

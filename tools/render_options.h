@@ -16,6 +16,7 @@ namespace pluvia {
 /// Everything that decides over the bytes of a frame, in the units of the command line.
 struct RenderOptions {
     std::string scene, output;
+    bool allow_outside = false;
     std::string camera;
     int frame = 0;
     double fps = 24;
@@ -27,7 +28,7 @@ struct RenderOptions {
     std::string composition = "physical";
     double streak_gain = 24.5;
     double streak_width = 1;
-    std::vector<double> camera_velocity = {0, 0, 0};
+    std::vector<double> camera_velocity;  // empty = as the scene has it
     LightOptions light;
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
     double shutter = 1.0 / 60;

@@ -38,7 +38,7 @@ CameraSettings camera_settings(const RenderOptions& o) {
     s.focus_distance = o.focus.value_or(s.focus_distance);
     s.exposure_time = o.shutter;
     s.mid_exposure = o.frame / o.fps;
-    s.velocity = vector_from(o.camera_velocity, "camera-velocity");
+    if (!o.camera_velocity.empty()) s.velocity = vector_from(o.camera_velocity, "camera-velocity");
     return s;
 }
 

@@ -1,5 +1,6 @@
 #include "renderer/accel/ray_scene.h"
 
+#include "renderer/accel/held_triangles.h"
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/random.h"
@@ -58,6 +59,16 @@ void reject_transparent(const RTCFilterFunctionNArguments* args) {
             : unit_float(hash_key(context.opacity.key, uint64_t(point.instance), uint64_t(point.triangle)));
     // alpha 0 always passes and alpha 1 never does, whatever the hash.
     if (context.opacity.at_half ? alpha < threshold : alpha <= threshold) args->valid[0] = 0;
+}
+
+std::vector<size_t> uses_of_meshes(const Scene& scene) {
+    std::vector<size_t> uses(scene.meshes.size(), 0);
+    for (const Instance& instance : scene.instances) ++uses[instance.mesh];
+    return uses;
+}
+
+bool is_placed_by_instances(const Mesh& mesh, size_t uses) {
+    return uses > 1 && uses * mesh.triangles.size() > max_copied_triangles;
 }
 
 RTCRay embree_ray(const Ray& ray) {
@@ -141,16 +152,23 @@ struct RayScene::Embree {
     }
 };
 
+size_t held_triangles(const Scene& scene) {
+    const auto uses = uses_of_meshes(scene);
+    size_t sum = 0;
+    for (size_t i = 0; i < uses.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        if (uses[i] > 0) sum += mesh.triangles.size() * (is_placed_by_instances(mesh, uses[i]) ? 1 : uses[i]);
+    }
+    return sum;
+}
+
 RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
     Embree& e = *embree_;
     e.device = rtcNewDevice(nullptr);
     if (!e.device) throw Error(ExitCode::render_failed, "Embree", "cannot start");
 
-    std::vector<size_t> uses(scene.meshes.size(), 0);
-    for (const Instance& instance : scene.instances) ++uses[instance.mesh];
-    const auto is_instanced = [&](int mesh) {
-        return uses[mesh] > 1 && uses[mesh] * scene.meshes[mesh].triangles.size() > max_copied_triangles;
-    };
+    const auto uses = uses_of_meshes(scene);
+    const auto is_instanced = [&](int mesh) { return is_placed_by_instances(scene.meshes[mesh], uses[mesh]); };
 
     // Every mesh in a hierarchy of its own is built by one thread; many of them at the same time.
     e.mesh_scenes.assign(scene.meshes.size(), nullptr);

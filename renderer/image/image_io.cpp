@@ -68,6 +68,15 @@ void check_size(const std::string& where, int width, int height, uint64_t bytes_
                                      " bytes, expected up to 32768 x 32768 pixels and 4 GiB)");
 }
 
+/// A header of some bytes must not cost a gigabyte. No picture of these formats that shows anything is packed denser:
+/// deflate stores 1032 bytes in one, of which a byte of a palette may be 8 pixels.
+void check_density(std::size_t encoded, int width, int height, const std::string& where) {
+    constexpr uint64_t free_pixels = uint64_t(1) << 24, pixels_per_byte = 1032 * 8;
+    if (uint64_t(width) * uint64_t(height) > free_pixels + pixels_per_byte * encoded)
+        throw input_error(where, "cannot hold what it claims (got " + std::to_string(width) + " x " +
+                                     std::to_string(height) + " pixels in " + std::to_string(encoded) + " bytes)");
+}
+
 /// A picture in memory, open and of an acceptable size.
 struct Source {
     std::string where;
@@ -173,6 +182,7 @@ Image<Rgba8> decode_rgba8(std::span<const std::byte> bytes, const std::string& w
         return decode_webp(bytes, where);
     }
     Source source(bytes, where);
+    check_density(bytes.size(), source.spec().width, source.spec().height, where);
     const int count = std::min(4, source.spec().nchannels);
     const std::vector<uint8_t> values = source.read<uint8_t>(count);
     Image<Rgba8> image(source.spec().width, source.spec().height);

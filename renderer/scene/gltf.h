@@ -1,16 +1,42 @@
 // Scenes from and to glTF 2.0 files, .gltf and .glb. The tinygltf door is here and in the gltf_*.cpp files beside it.
-// Read: core glTF with triangles, KHR_lights_punctual, KHR_materials_emissive_strength, _ior, _specular (factor) and
-// _transmission (factor). Whatever else a file uses is named in Scene::warnings; what it requires is refused.
+// Read: core glTF (animations, skins, morph targets and sparse accessors included; no lines or points),
+// EXT_mesh_gpu_instancing, EXT_meshopt_compression, KHR_draco_mesh_compression, KHR_mesh_quantization,
+// KHR_lights_punctual, KHR_materials_emissive_strength, _ior, _specular (factor) and _transmission (factor). Whatever
+// else a file uses is named in Scene::warnings; what it requires is refused.
 #pragma once
 
 #include "renderer/scene/scene.h"
 
 #include <string>
+#include <vector>
 
 namespace pluvia {
 
-/// Reads, checks and rebases a scene. Throws Error (input) naming the file and the node, accessor or image at fault.
-Scene load_gltf(const std::string& path);
+struct GltfSettings {
+    double time = 0;                  // seconds at which animations are sampled
+    double exposure_time = 1.0 / 60;  // seconds around it over which a camera's velocity is measured
+    bool allow_outside = false;       // files that lie outside of the scene's folder may be read
+};
+
+/// What a file says beside its scene, for reports.
+struct GltfContents {
+    struct Animation {
+        std::string name;
+        double duration = 0;  // seconds to its last key
+    };
+    struct Extension {
+        std::string name;
+        bool is_required = false, is_read = false;
+    };
+    int nodes = 0;
+    std::vector<Animation> animations;
+    std::vector<Extension> extensions;
+    std::vector<Vec3d> camera_velocities;  // of Scene::cameras during the exposure, m/s
+};
+
+/// Reads, checks and rebases a scene. An animated file's coordinates have the same origin at all times.
+/// Throws Error (input) naming the file and the node, accessor or image at fault.
+Scene load_gltf(const std::string& path, const GltfSettings& settings = {}, GltfContents* contents = nullptr);
 
 /// Writes a scene as one binary .glb with its pictures embedded as PNG; appears whole, by rename.
 void save_glb(const Scene& scene, const std::string& path);

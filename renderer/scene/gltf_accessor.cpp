@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <optional>
 
 namespace pluvia {
 namespace {
@@ -31,52 +33,125 @@ float read_component(const std::byte* p, int type, bool normalized) {
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return normalized ? load<uint16_t>(p) / 65535.0f : load<uint16_t>(p);
         default:
-            return float(load<uint32_t>(p));
+            return normalized ? float(load<uint32_t>(p) / 4294967295.0) : float(load<uint32_t>(p));
     }
 }
 
-struct Elements {
-    const std::byte* first;
-    size_t count, stride, component_size;
-    int components, component_type;
-    bool normalized;
+/// Elements in a row: count of them, `stride` bytes from one to the next.
+struct Row {
+    const std::byte* first = nullptr;  // null: all are zero
+    size_t count = 0, stride = 0;
 };
 
-/// Finds an accessor's elements and checks that all of them lie inside the buffer.
+/// A row that starts `offset` bytes into a buffer view, all of whose elements lie inside.
+Row find_row(const tinygltf::Model& model, int view, uint64_t offset, uint64_t count, size_t element_size,
+             const std::string& where) {
+    const auto bytes = buffer_view_bytes(model, view, where);
+    const size_t view_stride = model.bufferViews[view].byteStride;
+    const size_t stride = view_stride ? view_stride : element_size;
+    // Compared by division: a hostile count times the stride would overflow.
+    const bool fits = offset <= bytes.size() && stride >= element_size &&
+                      (count == 0 || (bytes.size() - offset >= element_size &&
+                                      count - 1 <= (bytes.size() - offset - element_size) / stride));
+    if (!fits)
+        throw input_error(where, fmt::format("reaches outside its buffer view (got {} elements of stride {} at "
+                                             "offset {}, expected at most {} bytes)",
+                                             count, stride, offset, bytes.size()));
+    return {bytes.data() + offset, size_t(count), stride};
+}
+
+struct Elements {
+    Row row;
+    int components, component_type;
+    size_t component_size;
+    bool normalized;
+    Row sparse_indices, sparse_values;
+    int sparse_index_type = 0;
+    std::string where;
+};
+
+std::vector<uint32_t> read_integers(const Row& row, int component_type, const std::string& where) {
+    std::vector<uint32_t> values(row.count);
+    const auto copy = [&]<class T>(T) {
+        for (size_t i = 0; i < row.count; ++i) values[i] = row.first ? load<T>(row.first + i * row.stride) : 0;
+    };
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+        copy(uint8_t());
+    else if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+        copy(uint16_t());
+    else if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        copy(uint32_t());
+    else
+        throw input_error(where,
+                          fmt::format("has the wrong type for indices (got {}, expected unsigned byte, short or int)",
+                                      component_type));
+    return values;
+}
+
+/// The most elements that an accessor without bytes, which stands for zeros, may have: it goes with others that have.
+size_t most_zeros(const tinygltf::Model& model) {
+    size_t bytes = 1024;
+    for (const tinygltf::Buffer& buffer : model.buffers) bytes += buffer.data.size();
+    return bytes;
+}
+
 Elements find_elements(const tinygltf::Model& model, int index, const std::string& where) {
     if (index < 0 || index >= int(model.accessors.size()))
         throw input_error(
             where, fmt::format("accessor does not exist (got {}, expected below {})", index, model.accessors.size()));
     const tinygltf::Accessor& accessor = model.accessors[index];
-    const std::string accessor_where = fmt::format("{}: accessor {}", where, index);
-    if (accessor.sparse.isSparse) throw input_error(accessor_where, "is sparse, which is not supported");
-    const int components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
+    Elements e;
+    e.where = fmt::format("{}: accessor {}", where, index);
+    e.components = tinygltf::GetNumComponentsInType(uint32_t(accessor.type));
+    e.component_type = accessor.componentType;
+    e.normalized = accessor.normalized;
     const int component_size = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
     const bool is_signed_int = accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT;  // glTF has none
-    if (components <= 0 || component_size <= 0 || component_size > 4 || is_signed_int)
-        throw input_error(accessor_where, fmt::format("has an unknown type (got {} of component {})", accessor.type,
-                                                      accessor.componentType));
-    const auto bytes = buffer_view_bytes(model, accessor.bufferView, accessor_where);
-    const size_t element_size = size_t(components) * component_size;
-    const size_t view_stride = model.bufferViews[accessor.bufferView].byteStride;
-    const size_t stride = view_stride ? view_stride : element_size;
-    // Compared by division: a hostile count times the stride would overflow.
-    const bool fits =
-        accessor.byteOffset <= bytes.size() && stride >= element_size &&
-        (accessor.count == 0 || (bytes.size() - accessor.byteOffset >= element_size &&
-                                 (accessor.count - 1) <= (bytes.size() - accessor.byteOffset - element_size) / stride));
-    if (!fits)
-        throw input_error(accessor_where,
-                          fmt::format("reaches outside its buffer view (got {} elements of stride {} at "
-                                      "offset {}, expected at most {} bytes)",
-                                      accessor.count, stride, accessor.byteOffset, bytes.size()));
-    return {bytes.data() + accessor.byteOffset,
-            accessor.count,
-            stride,
-            size_t(component_size),
-            components,
-            accessor.componentType,
-            accessor.normalized};
+    if (e.components <= 0 || component_size <= 0 || component_size > 4 || is_signed_int)
+        throw input_error(e.where, fmt::format("has an unknown type (got {} of component {})", accessor.type,
+                                               accessor.componentType));
+    e.component_size = size_t(component_size);
+    const size_t element_size = size_t(e.components) * e.component_size;
+    if (accessor.bufferView == -1) {
+        if (accessor.count > most_zeros(model))
+            throw input_error(e.where, fmt::format("has no buffer view (got {} elements all zero)", accessor.count));
+        e.row.count = accessor.count;
+    } else {
+        e.row = find_row(model, accessor.bufferView, accessor.byteOffset, accessor.count, element_size, e.where);
+    }
+    if (!accessor.sparse.isSparse) return e;
+    const auto& sparse = accessor.sparse;
+    if (sparse.count < 0 || size_t(sparse.count) > accessor.count || sparse.indices.byteOffset < 0 ||
+        sparse.values.byteOffset < 0)
+        throw input_error(
+            e.where, fmt::format("has sparse values that do not fit (got {} at {} and {}, expected at most {})",
+                                 sparse.count, sparse.indices.byteOffset, sparse.values.byteOffset, accessor.count));
+    const int index_size = tinygltf::GetComponentSizeInBytes(uint32_t(sparse.indices.componentType));
+    const std::string sparse_where = e.where + ": sparse indices", value_where = e.where + ": sparse values";
+    if (index_size <= 0 || index_size > 4)
+        throw input_error(sparse_where, fmt::format("have an unknown type (got {})", sparse.indices.componentType));
+    e.sparse_indices = find_row(model, sparse.indices.bufferView, uint64_t(sparse.indices.byteOffset),
+                                uint64_t(sparse.count), size_t(index_size), sparse_where);
+    e.sparse_values = find_row(model, sparse.values.bufferView, uint64_t(sparse.values.byteOffset),
+                               uint64_t(sparse.count), element_size, value_where);
+    e.sparse_index_type = sparse.indices.componentType;
+    return e;
+}
+
+std::vector<uint32_t> sparse_targets(const Elements& e) {
+    if (e.sparse_indices.count == 0) return {};
+    auto targets = read_integers(e.sparse_indices, e.sparse_index_type, e.where + ": sparse indices");
+    for (const uint32_t target : targets)
+        if (target >= e.row.count)
+            throw input_error(
+                e.where, fmt::format("substitutes an element that is not there (got {}, expected below {})", target,
+                                     e.row.count));
+    return targets;
+}
+
+void read_element(const std::byte* p, const Elements& e, float* out) {
+    for (int c = 0; c < e.components; ++c)
+        out[c] = read_component(p + size_t(c) * e.component_size, e.component_type, e.normalized);
 }
 
 }  // namespace
@@ -102,41 +177,50 @@ int component_count(const tinygltf::Model& model, int accessor) {
     return tinygltf::GetNumComponentsInType(uint32_t(model.accessors[accessor].type));
 }
 
-std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& where) {
+size_t element_count(const tinygltf::Model& model, int accessor, const std::string& where) {
+    return find_elements(model, accessor, where).row.count;
+}
+
+void read_into(const tinygltf::Model& model, int accessor, int components, const std::string& where, float* out) {
     const Elements e = find_elements(model, accessor, where);
     if (e.components != components)
         throw input_error(where, fmt::format("accessor {} has the wrong type (got {} components, expected {})",
                                              accessor, e.components, components));
-    std::vector<float> values;
-    values.reserve(e.count * components);
-    for (size_t i = 0; i < e.count; ++i)
-        for (int c = 0; c < components; ++c)
-            values.push_back(
-                read_component(e.first + i * e.stride + c * e.component_size, e.component_type, e.normalized));
+    const size_t n = size_t(components);
+    const bool is_plain = e.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT && e.row.stride == n * sizeof(float);
+    if (!e.row.first)
+        std::fill_n(out, e.row.count * n, 0.0f);
+    else if (is_plain)
+        std::memcpy(out, e.row.first, e.row.count * n * sizeof(float));
+    else
+        for (size_t i = 0; i < e.row.count; ++i) read_element(e.row.first + i * e.row.stride, e, out + i * n);
+    const auto targets = sparse_targets(e);
+    for (size_t i = 0; i < targets.size(); ++i)
+        read_element(e.sparse_values.first + i * e.sparse_values.stride, e, out + targets[i] * n);
+    if (e.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    for (size_t i = 0; i < e.row.count * n; ++i)
+        if (!std::isfinite(out[i]))
+            throw input_error(e.where, fmt::format("holds a value that is not finite (got {} in element {}, expected "
+                                                   "numbers)",
+                                                   out[i], i / n));
+}
+
+std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int components, const std::string& where) {
+    std::vector<float> values(element_count(model, accessor, where) * size_t(std::max(components, 0)));
+    read_into(model, accessor, components, where, values.data());
     return values;
 }
 
 std::vector<uint32_t> read_indices(const tinygltf::Model& model, int accessor, const std::string& where) {
     const Elements e = find_elements(model, accessor, where);
-    std::vector<uint32_t> indices(e.count);
-    for (size_t i = 0; i < e.count; ++i) {
-        const std::byte* p = e.first + i * e.stride;
-        switch (e.component_type) {
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-                indices[i] = load<uint8_t>(p);
-                break;
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-                indices[i] = load<uint16_t>(p);
-                break;
-            case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-                indices[i] = load<uint32_t>(p);
-                break;
-            default:
-                throw input_error(where, fmt::format("index accessor {} has the wrong type (got {}, expected unsigned "
-                                                     "byte, short or int)",
-                                                     accessor, e.component_type));
-        }
-    }
+    if (e.components != 1)
+        throw input_error(e.where,
+                          fmt::format("has the wrong type for indices (got {} components, expected 1)", e.components));
+    auto indices = read_integers(e.row, e.component_type, e.where);
+    const auto targets = sparse_targets(e);
+    if (targets.empty()) return indices;
+    const auto values = read_integers(e.sparse_values, e.component_type, e.where);
+    for (size_t i = 0; i < targets.size(); ++i) indices[targets[i]] = values[i];
     return indices;
 }
 

@@ -2,8 +2,11 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf_accessor.h"
-#include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_animation.h"
+#include "renderer/scene/gltf_deform.h"
 #include "renderer/scene/gltf_material.h"
+#include "renderer/scene/gltf_mesh.h"
+#include "renderer/scene/gltf_nodes.h"
 #include "renderer/scene/gltf_parse.h"
 
 #include <fmt/format.h>
@@ -11,187 +14,188 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace pluvia {
 namespace {
 
-Transform transform_of(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) {
-        const auto& m = node.matrix;  // column-major
-        return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
-    }
-    Transform t;
-    if (node.scale.size() == 3) t = scale({node.scale[0], node.scale[1], node.scale[2]});
-    if (node.rotation.size() == 4)
-        t = rotate(node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]) * t;
-    if (node.translation.size() == 3) t.translation = {node.translation[0], node.translation[1], node.translation[2]};
-    return t;
-}
-
-Mesh read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name,
-                    const std::string& where) {
-    Mesh mesh;
-    mesh.name = name;
-    const auto attribute = [&](const char* key) {
-        const auto found = primitive.attributes.find(key);
-        return found == primitive.attributes.end() ? -1 : found->second;
-    };
-    if (attribute("POSITION") == -1) throw input_error(where, "has no POSITION");
-    const auto p = read_floats(model, attribute("POSITION"), 3, where);
-    for (size_t i = 0; i < p.size(); i += 3) mesh.positions.emplace_back(p[i], p[i + 1], p[i + 2]);
-    if (const int a = attribute("NORMAL"); a != -1) {
-        const auto n = read_floats(model, a, 3, where);
-        for (size_t i = 0; i < n.size(); i += 3) mesh.normals.emplace_back(n[i], n[i + 1], n[i + 2]);
-    }
-    const auto read_uvs = [&](const char* key, std::vector<Vec2>& uvs) {
-        const int a = attribute(key);
-        if (a == -1) return;
-        const auto uv = read_floats(model, a, 2, where);
-        for (size_t i = 0; i < uv.size(); i += 2) uvs.push_back({uv[i], uv[i + 1]});
-    };
-    read_uvs("TEXCOORD_0", mesh.uvs);
-    read_uvs("TEXCOORD_1", mesh.uvs1);
-    if (const int a = attribute("TANGENT"); a != -1) {
-        const auto t = read_floats(model, a, 4, where);
-        for (size_t i = 0; i < t.size(); i += 4) mesh.tangents.push_back({{t[i], t[i + 1], t[i + 2]}, t[i + 3]});
-    }
-    if (const int a = attribute("COLOR_0"); a != -1) {
-        const int components = component_count(model, a) == 4 ? 4 : 3;
-        const auto c = read_floats(model, a, components, where);
-        for (size_t i = 0; i < c.size(); i += components) {
-            mesh.colors.emplace_back(c[i], c[i + 1], c[i + 2]);
-            if (components == 4) mesh.alphas.push_back(c[i + 3]);
-        }
-    }
-    std::vector<uint32_t> indices;
-    if (primitive.indices != -1) {
-        indices = read_indices(model, primitive.indices, where);
-    } else {
-        indices.resize(mesh.positions.size());
-        for (size_t i = 0; i < indices.size(); ++i) indices[i] = uint32_t(i);
-    }
-    if (indices.size() % 3 != 0)
-        throw input_error(where, fmt::format("is not made of whole triangles (got {} indices)", indices.size()));
-    for (size_t i = 0; i < indices.size(); i += 3)
-        mesh.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-    if (primitive.material < -1 || primitive.material >= int(model.materials.size()))
-        throw input_error(where, fmt::format("material does not exist (got {}, expected below {})", primitive.material,
-                                             model.materials.size()));
-    mesh.material = primitive.material >= 0 ? primitive.material : int(model.materials.size());
-    return mesh;
-}
-
-// Far more than any file has; a chain of nodes is followed by recursion, which must not use up the stack.
-constexpr int max_depth = 256;
-
-/// Walks the node tree and adds what hangs on it, with transforms composed in double precision.
-class NodeWalk {
+/// Adds what hangs on the nodes to the scene, each where it is at the time of the frame.
+class SceneFiller {
 public:
-    NodeWalk(const tinygltf::Model& model, const std::string& where, Scene& scene)
-        : model_(model),
-          where_(where),
-          scene_(scene),
-          first_part_(model.meshes.size(), -1),
-          visited_(model.nodes.size()) {}
+    SceneFiller(const tinygltf::Model& model, const std::string& where, const NodeTree& tree, Scene& scene)
+        : model_(model), where_(where), tree_(tree), scene_(scene), budget_(model, where) {}
 
-    /// parent_path: empty for a root. depth: number of nodes above.
-    void walk(int index, const Transform& scene_from_parent, const std::string& parent_path, int depth = 0) {
-        if (index < 0 || index >= int(model_.nodes.size()))
-            throw input_error(
-                where_, fmt::format("node does not exist (got {}, expected below {})", index, model_.nodes.size()));
-        if (visited_[index])
-            throw input_error(where_, fmt::format("node {} is reached twice (expected a tree)", index));
-        if (depth >= max_depth)
-            throw input_error(where_, fmt::format("node {} lies too deep in the tree (expected at most {} levels)",
-                                                  index, max_depth));
-        visited_[index] = true;
-        const tinygltf::Node& node = model_.nodes[index];
-        const std::string name = node.name.empty() ? fmt::format("node_{}", index) : node.name;
-        const std::string path = parent_path.empty() ? name : parent_path + "/" + name;
-        const Transform scene_from_node = scene_from_parent * transform_of(node);
-        if (!is_finite(scene_from_node.translation) || !std::isfinite(scene_from_node.determinant()))
-            throw input_error(fmt::format("{}: node \"{}\"", where_, path),
-                              "its transform is not finite (expected numbers)");
-        const bool lamp_above = lamp_;
-        lamp_ = lamp_above || is_marked_lamp(node.extras);
-        if (node.mesh != -1) add_mesh(node, path, scene_from_node);
-        if (node.camera != -1) add_camera(node, name, scene_from_node);
-        if (node.extensions.count("KHR_lights_punctual")) add_light(node, name, scene_from_node);
-        for (const int child : node.children) walk(child, scene_from_node, path, depth + 1);
-        lamp_ = lamp_above;
+    /// posed: the file's nodes, as animations left them.
+    void add_meshes(const std::vector<tinygltf::Node>& posed) {
+        for (const PlacedNode& entry : tree_.nodes)
+            if (posed[entry.node].mesh != -1) add_mesh(posed[entry.node], entry);
+    }
+    void add_lights() {
+        for (const PlacedNode& entry : tree_.nodes)
+            if (model_.nodes[entry.node].extensions.count("KHR_lights_punctual")) add_light(entry);
+    }
+    /// velocities: of the nodes, m/s; empty = all rest. Returns those of the cameras.
+    std::vector<Vec3d> add_cameras(const std::vector<Vec3d>& velocities) {
+        std::vector<Vec3d> added;
+        for (const PlacedNode& entry : tree_.nodes)
+            if (model_.nodes[entry.node].camera != -1 && add_camera(entry))
+                added.push_back(velocities.empty() ? Vec3d() : velocities[entry.node]);
+        return added;
     }
 
 private:
-    void add_mesh(const tinygltf::Node& node, const std::string& path, const Transform& scene_from_node) {
+    struct Parts {
+        int first = 0, count = 0;
+    };
+
+    std::string node_where(const std::string& path) const { return fmt::format("{}: node \"{}\"", where_, path); }
+
+    void add_mesh(const tinygltf::Node& node, const PlacedNode& entry) {
         if (node.mesh < 0 || node.mesh >= int(model_.meshes.size()))
-            throw input_error(fmt::format("{}: node \"{}\"", where_, path),
-                              fmt::format("mesh does not exist (got {}, "
-                                          "expected below {})",
-                                          node.mesh, model_.meshes.size()));
-        if (node.skin >= 0) scene_.warnings.push_back(fmt::format("node \"{}\": its skin is not supported", path));
-        const tinygltf::Mesh& mesh = model_.meshes[node.mesh];
-        if (first_part_[node.mesh] < 0) read_mesh(mesh, node.mesh);
-        for (int part = 0; part < part_count_[node.mesh]; ++part)
-            scene_.instances.push_back({path, instance_id(path), first_part_[node.mesh] + part, scene_from_node, lamp_});
-    }
-
-    void read_mesh(const tinygltf::Mesh& mesh, int index) {
-        first_part_[index] = int(scene_.meshes.size());
-        for (size_t k = 0; k < mesh.primitives.size(); ++k) {
-            const tinygltf::Primitive& primitive = mesh.primitives[k];
-            const std::string primitive_where = fmt::format("{}: mesh \"{}\" primitive {}", where_, mesh.name, k);
-            if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
-                scene_.warnings.push_back(
-                    fmt::format("mesh \"{}\": primitive {} is not made of triangles (mode {}) and "
-                                "is left out",
-                                mesh.name, k, primitive.mode));
-                continue;
-            }
-            if (!primitive.targets.empty())
-                scene_.warnings.push_back(fmt::format("mesh \"{}\": its morph targets are not supported", mesh.name));
-            scene_.meshes.push_back(read_primitive(model_, primitive, mesh.name, primitive_where));
+            throw input_error(node_where(entry.path), fmt::format("mesh does not exist (got {}, expected below {})",
+                                                                  node.mesh, model_.meshes.size()));
+        Deformation deformation;
+        deformation.weights = node.weights.empty() ? model_.meshes[node.mesh].weights : node.weights;
+        Transform placed = tree_.scene_from_node[entry.node];
+        if (node.skin != -1) {
+            // The joints alone place a skinned mesh. Its vertices are kept near zero for the sake of single precision.
+            placed = translate(skin_origin(node.skin));
+            deformation.joints = skin_joints(model_, node.skin, tree_.scene_from_node, tree_.is_placed,
+                                             placed.translation, node_where(entry.path));
         }
-        part_count_[index] = int(scene_.meshes.size()) - first_part_[index];
-    }
-
-    void add_camera(const tinygltf::Node& node, const std::string& name, const Transform& scene_from_node) {
-        const std::string node_where = fmt::format("{}: node \"{}\"", where_, name);
-        if (node.camera < 0 || node.camera >= int(model_.cameras.size()))
-            throw input_error(node_where, fmt::format("camera does not exist (got {}, expected below {})", node.camera,
-                                                      model_.cameras.size()));
-        if (scene_from_node.determinant() == 0)
-            throw input_error(node_where, "its transform leaves the camera no direction (got a scale of 0)");
-        const tinygltf::Camera& source = model_.cameras[node.camera];
-        if (source.type != "perspective") {
-            scene_.warnings.push_back(fmt::format("camera \"{}\": {} projection is not supported", name, source.type));
+        const Parts parts = read_once(node, std::move(deformation));
+        const auto instancing = node.extensions.find("EXT_mesh_gpu_instancing");
+        if (instancing == node.extensions.end()) {
+            add_instances(entry.path, parts, placed, entry.is_lamp);
             return;
         }
-        const double fov = source.perspective.yfov;
-        if (!(fov > 0 && fov < std::numbers::pi))
-            throw input_error(node_where, fmt::format("its camera's yfov is out of range (got {}, expected above 0 and "
-                                                      "below pi)",
-                                                      fov));
-        scene_.cameras.push_back({source.name.empty() ? name : source.name, scene_from_node, fov});
+        const auto copies = read_copies(instancing->second, node_where(entry.path));
+        for (size_t i = 0; i < copies.size(); ++i)
+            add_instances(fmt::format("{}[{}]", entry.path, i), parts, placed * copies[i], entry.is_lamp);
     }
 
-    void add_light(const tinygltf::Node& node, const std::string& name, const Transform& scene_from_node) {
-        const tinygltf::Value& reference = node.extensions.at("KHR_lights_punctual").Get("light");
+    Vec3d skin_origin(int skin) const {
+        const bool exists = skin >= 0 && skin < int(model_.skins.size()) && !model_.skins[skin].joints.empty();
+        const int joint = exists ? model_.skins[skin].joints[0] : -1;
+        const bool is_placed = joint >= 0 && joint < int(tree_.is_placed.size()) && tree_.is_placed[joint];
+        return is_placed ? tree_.scene_from_node[joint].translation : Vec3d();  // skin_joints() says what is wrong
+    }
+
+    /// Nodes share a mesh unless skins or weights shape it differently.
+    Parts read_once(const tinygltf::Node& node, Deformation deformation) {
+        const auto [found, is_new] = parts_.try_emplace({node.mesh, node.skin, deformation.weights});
+        if (!is_new) return found->second;
+        auto meshes = read_mesh(model_, node.mesh, deformation, where_, budget_, scene_);
+        found->second = {int(scene_.meshes.size()), int(meshes.size())};
+        std::move(meshes.begin(), meshes.end(), std::back_inserter(scene_.meshes));
+        return found->second;
+    }
+
+    void add_instances(const std::string& path, const Parts& parts, const Transform& scene_from_object, bool is_lamp) {
+        for (int part = 0; part < parts.count; ++part) {
+            budget_.spend(sizeof(Instance) + path.size());
+            scene_.instances.push_back({path, instance_id(path), parts.first + part, scene_from_object, is_lamp});
+        }
+    }
+
+    /// Transforms of the copies of EXT_mesh_gpu_instancing, relative to their node.
+    std::vector<Transform> read_copies(const tinygltf::Value& extension, const std::string& where) {
+        const auto accessor = [&](const char* key) {
+            if (!extension.Has("attributes") || !extension.Get("attributes").Has(key)) return -1;
+            const tinygltf::Value& index = extension.Get("attributes").Get(key);
+            return index.IsInt() && index.GetNumberAsInt() >= 0 ? index.GetNumberAsInt() : -2;
+        };
+        const int translation = accessor("TRANSLATION"), rotation = accessor("ROTATION"), scaling = accessor("SCALE");
+        size_t count = 0;
+        bool is_first = true;
+        for (const int index : {translation, rotation, scaling}) {
+            if (index == -1) continue;
+            const size_t n = element_count(model_, index, where);
+            if (!is_first && n != count)
+                throw input_error(
+                    where,
+                    fmt::format("its EXT_mesh_gpu_instancing accessors differ in length (got {} and {})", count, n));
+            count = n, is_first = false;
+        }
+        if (is_first) throw input_error(where, "its EXT_mesh_gpu_instancing has no TRANSLATION, ROTATION or SCALE");
+        budget_.spend(count * sizeof(Transform));
+        std::vector<Transform> copies(count);
+        if (scaling != -1) {
+            const auto s = read_floats(model_, scaling, 3, where);
+            for (size_t i = 0; i < count; ++i) copies[i] = scale({s[3 * i], s[3 * i + 1], s[3 * i + 2]});
+        }
+        if (rotation != -1) {
+            const auto q = read_floats(model_, rotation, 4, where);
+            for (size_t i = 0; i < count; ++i) {
+                const float* r = &q[4 * i];
+                if (r[0] == 0 && r[1] == 0 && r[2] == 0 && r[3] == 0)
+                    throw input_error(
+                        where, fmt::format("accessor {}: rotation {} is not a quaternion (got 0 0 0 0)", rotation, i));
+                copies[i] = rotate(r[0], r[1], r[2], r[3]) * copies[i];
+            }
+        }
+        if (translation != -1) {
+            const auto t = read_floats(model_, translation, 3, where);
+            for (size_t i = 0; i < count; ++i) copies[i].translation = {t[3 * i], t[3 * i + 1], t[3 * i + 2]};
+        }
+        return copies;
+    }
+
+    /// False where the camera is of a kind that is not supported.
+    bool add_camera(const PlacedNode& entry) {
+        const int index = model_.nodes[entry.node].camera;
+        const Transform& scene_from_node = tree_.scene_from_node[entry.node];
+        const std::string where = node_where(entry.name);
+        if (index < 0 || index >= int(model_.cameras.size()))
+            throw input_error(
+                where, fmt::format("camera does not exist (got {}, expected below {})", index, model_.cameras.size()));
+        if (scene_from_node.determinant() == 0)
+            throw input_error(where, "its transform leaves the camera no direction (got a scale of 0)");
+        const tinygltf::Camera& source = model_.cameras[index];
+        if (source.type != "perspective") {
+            scene_.warnings.push_back(
+                fmt::format("camera \"{}\": {} projection is not supported", entry.name, source.type));
+            return false;
+        }
+        const auto& lens = source.perspective;
+        if (!(lens.yfov > 0 && lens.yfov < std::numbers::pi))
+            throw input_error(where, fmt::format("its camera's yfov is out of range (got {}, expected above 0 and "
+                                                 "below pi)",
+                                                 lens.yfov));
+        // The parser gives 0 for what is absent; what is rendered does not depend on these.
+        if (!(lens.znear > 0))
+            throw input_error(where,
+                              fmt::format("its camera's znear is out of range (got {}, expected above 0)", lens.znear));
+        if (lens.zfar < 0 || (lens.zfar > 0 && lens.zfar <= lens.znear))
+            throw input_error(where,
+                              fmt::format("its camera's zfar is out of range (got {}, expected above its znear, {})",
+                                          lens.zfar, lens.znear));
+        if (lens.aspectRatio < 0)
+            throw input_error(where, fmt::format("its camera's aspectRatio is out of range (got {}, expected above 0)",
+                                                 lens.aspectRatio));
+        scene_.cameras.push_back({source.name.empty() ? entry.name : source.name, scene_from_node, lens.yfov});
+        return true;
+    }
+
+    void add_light(const PlacedNode& entry) {
+        const Transform& scene_from_node = tree_.scene_from_node[entry.node];
+        const tinygltf::Value& reference = model_.nodes[entry.node].extensions.at("KHR_lights_punctual").Get("light");
         const int index = reference.IsInt() ? reference.GetNumberAsInt() : -1;
-        const std::string node_where = fmt::format("{}: node \"{}\"", where_, name);
+        const std::string where = node_where(entry.name);
         if (index < 0 || index >= int(model_.lights.size()))
-            throw input_error(node_where, fmt::format("light does not exist (got {}, expected below {})", index,
-                                                      model_.lights.size()));
+            throw input_error(
+                where, fmt::format("light does not exist (got {}, expected below {})", index, model_.lights.size()));
         const tinygltf::Light& source = model_.lights[index];
         PunctualLight light;
-        light.name = source.name.empty() ? name : source.name;
+        light.name = source.name.empty() ? entry.name : source.name;
         const Rgb color = source.color.size() == 3
                               ? Rgb(float(source.color[0]), float(source.color[1]), float(source.color[2]))
                               : Rgb(1);
         light.intensity = color * float(source.intensity);
         if (!(is_finite(light.intensity) && std::min({light.intensity.r, light.intensity.g, light.intensity.b}) >= 0))
-            throw input_error(node_where, fmt::format("its light's intensity is out of range (got {} times {} {} {}, "
-                                                      "expected 0 or more)",
-                                                      source.intensity, color.r, color.g, color.b));
+            throw input_error(where, fmt::format("its light's intensity is out of range (got {} times {} {} {}, "
+                                                 "expected 0 or more)",
+                                                 source.intensity, color.r, color.g, color.b));
         light.position = scene_from_node.translation;
         light.direction = Vec3(normalize(scene_from_node.vector({0, 0, -1})));
         light.inner_cone_angle = float(source.spot.innerConeAngle);
@@ -201,48 +205,119 @@ private:
         else if (source.type == "spot")
             light.kind = PunctualLight::Kind::spot;
         else if (source.type != "point")
-            throw input_error(node_where,
-                              fmt::format("its light has an unknown type (got \"{}\", expected point, spot or "
-                                          "directional)",
-                                          source.type));
+            throw input_error(where, fmt::format("its light has an unknown type (got \"{}\", expected point, spot or "
+                                                 "directional)",
+                                                 source.type));
         if (light.kind != PunctualLight::Kind::point && !is_finite(light.direction))
-            throw input_error(node_where, "its transform leaves the light no direction (got a scale of 0)");
+            throw input_error(where, "its transform leaves the light no direction (got a scale of 0)");
+        const bool is_cone = light.inner_cone_angle >= 0 && light.inner_cone_angle <= light.outer_cone_angle &&
+                             light.outer_cone_angle > 0 && light.outer_cone_angle <= pi;
+        if (light.kind == PunctualLight::Kind::spot && !is_cone)
+            throw input_error(
+                where, fmt::format("its light's cone angles are out of range (got {} and {}, expected 0 to pi, the "
+                                   "inner within the outer)",
+                                   light.inner_cone_angle, light.outer_cone_angle));
         if (source.range > 0)
             scene_.warnings.push_back(
-                fmt::format("light \"{}\": its range is ignored, light falls off with distance "
-                            "squared",
-                            light.name));
-        light.lamp = lamp_;
+                fmt::format("light \"{}\": its range is ignored, light falls off with distance squared", light.name));
+        light.lamp = entry.is_lamp;
         scene_.lights.push_back(light);
     }
 
     const tinygltf::Model& model_;
     const std::string& where_;
+    const NodeTree& tree_;
     Scene& scene_;
-    std::vector<int> first_part_;  // first Scene mesh of each glTF mesh, -1 = not read yet
-    std::vector<int> part_count_ = std::vector<int>(first_part_.size(), 0);
-    std::vector<bool> visited_;
-    bool lamp_ = false;  // the node in hand or one above it is marked as a lamp
+    MemoryBudget budget_;
+    std::map<std::tuple<int, int, std::vector<double>>, Parts> parts_;  // of mesh, skin and weights
 };
+
+/// Mean velocities of the nodes over the exposure, m/s; what is before the first key or after the last does not count.
+std::vector<Vec3d> node_velocities(const Animations& animations, const NodeTree& tree, const tinygltf::Model& model,
+                                   const GltfSettings& settings) {
+    const double first = std::max(settings.time - settings.exposure_time / 2, animations.start());
+    const double last = std::min(settings.time + settings.exposure_time / 2, animations.end());
+    if (animations.empty() || !(last > first)) return {};
+    std::vector<tinygltf::Node> nodes = model.nodes;
+    animations.pose(first, nodes);
+    const auto before = place_again(tree, nodes);
+    animations.pose(last, nodes);
+    const auto after = place_again(tree, nodes);
+    std::vector<Vec3d> velocities(before.size());
+    for (size_t i = 0; i < velocities.size(); ++i)
+        velocities[i] = (after[i].translation - before[i].translation) / (last - first);
+    return velocities;
+}
+
+/// A centre that does not move with the animation, so that rain and positions agree from frame to frame: that of the
+/// places where meshes rest.
+Vec3d resting_centre(const NodeTree& tree, const tinygltf::Model& model) {
+    const auto resting = place_again(tree, model.nodes);
+    Bounds box;
+    for (const PlacedNode& entry : tree.nodes)
+        if (model.nodes[entry.node].mesh != -1) box.add(resting[entry.node].translation);
+    return box.empty() ? Vec3d() : (box.lower + box.upper) * 0.5;
+}
+
+/// As rebase(), for a centre of one's own.
+void rebase_to(Scene& scene, Vec3d centre) {
+    for (Instance& instance : scene.instances) instance.scene_from_object.translation += -centre;
+    for (PunctualLight& light : scene.lights) light.position += -centre;
+    for (Camera& camera : scene.cameras) camera.scene_from_camera.translation += -centre;
+    scene.origin += centre;
+}
+
+GltfContents contents_of(const tinygltf::Model& model, const std::string& where) {
+    GltfContents contents;
+    contents.nodes = int(model.nodes.size());
+    for (const tinygltf::Animation& animation : model.animations) {
+        auto& entry = contents.animations.emplace_back();
+        entry.name = animation.name;
+        for (const tinygltf::AnimationSampler& sampler : animation.samplers)
+            for (const float time : read_floats(model, sampler.input, 1, where))
+                entry.duration = std::max<double>(entry.duration, time);
+    }
+    for (const std::string& name : model.extensionsUsed) {
+        const auto& required = model.extensionsRequired;
+        const bool is_required = std::find(required.begin(), required.end(), name) != required.end();
+        contents.extensions.push_back({name, is_required, is_supported_extension(name)});
+    }
+    return contents;
+}
 
 }  // namespace
 
-Scene load_gltf(const std::string& path) {
+Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfContents* contents) {
     Scene scene;
-    const tinygltf::Model model = parse_gltf(path, scene.warnings);
+    tinygltf::Model model = parse_gltf(path, settings, scene.warnings);
     scene.name = std::filesystem::path(path).stem().string();
-    if (!model.animations.empty()) scene.warnings.push_back("animations are not supported and have no effect");
-
     read_materials(model, path, scene);
     if (model.scenes.empty()) throw input_error(path, "has no scene");
     const int chosen = model.defaultScene == -1 ? 0 : model.defaultScene;
     if (chosen < 0 || chosen >= int(model.scenes.size()))
         throw input_error(path,
                           fmt::format("scene does not exist (got {}, expected below {})", chosen, model.scenes.size()));
-    NodeWalk walk(model, path, scene);
-    for (const int node : model.scenes[chosen].nodes) walk.walk(node, Transform(), "");
+    const Animations animations(model, path, scene.warnings);
+    std::vector<tinygltf::Node> posed;
+    if (!animations.empty()) {
+        posed = model.nodes;
+        animations.pose(settings.time, posed);
+    }
+    const std::vector<tinygltf::Node>& nodes = animations.empty() ? model.nodes : posed;
+    const NodeTree tree = place_nodes(nodes, model.scenes[chosen].nodes, path);
+    SceneFiller filler(model, path, tree, scene);
+    filler.add_meshes(nodes);
+    const auto velocities = filler.add_cameras(node_velocities(animations, tree, model, settings));
+    filler.add_lights();
+    if (contents) {
+        *contents = contents_of(model, path);
+        contents->camera_velocities = velocities;
+    }
     check(scene, path);
-    rebase(scene);
+    if (animations.empty())
+        rebase(scene);
+    else
+        rebase_to(scene, resting_centre(tree, model));
     return scene;
 }
 

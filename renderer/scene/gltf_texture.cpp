@@ -1,6 +1,7 @@
 #include "renderer/scene/gltf_texture.h"
 
 #include "renderer/core/error.h"
+#include "renderer/core/parallel.h"
 #include "renderer/image/image_io.h"
 #include "renderer/scene/gltf_accessor.h"
 #include "renderer/scene/gltf_value.h"
@@ -62,13 +63,13 @@ void read_textures(const tinygltf::Model& model, const std::string& where, Scene
         chosen[image] = true;
         if (source != image && source >= 0 && source < int(model.images.size())) replaced[source] = true;
     }
-    for (size_t i = 0; i < model.images.size(); ++i) {
+    scene.images.resize(model.images.size());
+    parallel_for(int(model.images.size()), [&](int i) {
         const tinygltf::Image& image = model.images[i];
         const bool needed = chosen[i] || !replaced[i];
-        scene.images.push_back(needed
-                                   ? read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name))
-                                   : Image<Rgba8>(1, 1));
-    }
+        scene.images[i] = needed ? read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name))
+                                 : Image<Rgba8>(1, 1);
+    });
 }
 
 TextureSlot SlotReader::read(int texture, int uv_set, const tinygltf::Value* transform, const char* name) const {
