@@ -59,6 +59,7 @@ GltfDraft skinned_draft() {
     const int matrices = draft.add_floats({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,  //
                                            1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1},
                                           "MAT4");
+    draft.root["accessors"][matrices]["count"] = 2;
     const int hand = draft.add("nodes", {{"name", "hand"}, {"translation", {1, 0, 0}}});
     const int arm = draft.add_root({{"name", "arm"}, {"children", {hand}}});
     draft.add("skins", {{"joints", {arm, hand}}, {"inverseBindMatrices", matrices}});

@@ -141,11 +141,15 @@ Elements find_elements(const tinygltf::Model& model, int index, const std::strin
 std::vector<uint32_t> sparse_targets(const Elements& e) {
     if (e.sparse_indices.count == 0) return {};
     auto targets = read_integers(e.sparse_indices, e.sparse_index_type, e.where + ": sparse indices");
-    for (const uint32_t target : targets)
-        if (target >= e.row.count)
+    for (size_t i = 0; i < targets.size(); ++i) {
+        if (targets[i] >= e.row.count)
             throw input_error(
-                e.where, fmt::format("substitutes an element that is not there (got {}, expected below {})", target,
+                e.where, fmt::format("substitutes an element that is not there (got {}, expected below {})", targets[i],
                                      e.row.count));
+        if (i > 0 && targets[i] <= targets[i - 1])
+            throw input_error(e.where, fmt::format("has sparse indices that do not rise (got {} after {})", targets[i],
+                                                   targets[i - 1]));
+    }
     return targets;
 }
 
