@@ -28,7 +28,8 @@ TEST_CASE("a plain scene calls no feature that it lacks") {
     for (const Feature feature :
          {Feature::texture, Feature::normal_map, Feature::vertex_color, Feature::alpha, Feature::emissive_surface,
           Feature::pane, Feature::local_light, Feature::lens, Feature::streak_test, Feature::streak_hit,
-          Feature::streak_path, Feature::paper_streak}) {
+          Feature::streak_path, Feature::paper_streak, Feature::medium_point, Feature::medium_path,
+          Feature::medium_lamp}) {
         CAPTURE(feature_names[size_t(feature)]);
         CHECK(c[feature] == 0);
     }
@@ -85,9 +86,17 @@ TEST_CASE("each feature is called once a scene has it") {
     CHECK(wet[Feature::streak_test] > 0);
     CHECK(wet[Feature::streak_hit] > 0);
     CHECK(wet[Feature::streak_path] > 0);
+    CHECK(wet[Feature::medium_point] > 0);
+    CHECK(wet[Feature::medium_path] > 0);
+    CHECK(wet[Feature::medium_lamp] == 0);
+    Scene lit = plain();
+    lit.lights.push_back({.name = "lamp", .intensity = Rgb(10), .position = {0, 3, 0}});
+    CHECK(count(lit, world, rain)[Feature::medium_lamp] > 0);
     CHECK(wet[Feature::paper_streak] == 0);
     rain.streaks.composition = Composition::paper;
-    CHECK(count(plain(), world, rain)[Feature::paper_streak] > 0);
+    const Counters paper = count(plain(), world, rain);
+    CHECK(paper[Feature::paper_streak] > 0);
+    CHECK(paper[Feature::medium_point] == 0);
 }
 
 }  // namespace pluvia

@@ -18,8 +18,8 @@ using Plane = std::vector<float>;
 using Color = std::array<Plane, 3>;
 
 struct IntensityPlanes {
-    Color transmittance, rain, rainy;
-    Plane coverage;
+    Color transmittance, rain, inscatter, rainy;
+    Plane coverage, wide_coverage;
 };
 
 /// Rows of the EXR file that one band of pictures needs: its own and those that the mask's averages reach.
@@ -57,8 +57,10 @@ Rows read(ExrReader& exr, int y, const std::vector<double>& intensities) {
         const std::string label = intensity_label(intensities[i]);
         ask_color(rows.rain[i].transmittance, "transmittance_" + label);
         ask_color(rows.rain[i].rain, "rain_" + label);
+        ask_color(rows.rain[i].inscatter, "inscatter_" + label);
         ask_color(rows.rain[i].rainy, "rainy_" + label);
         ask(rows.rain[i].coverage, "rain_" + label + ".A");
+        ask(rows.rain[i].wide_coverage, "rain_wide_" + label + ".A");
     }
     exr.read_rows(rows.begin, rows.count, requests);
     return rows;
@@ -94,9 +96,9 @@ std::vector<uint8_t> bytes(const std::vector<Rgb>& pixels) {
     return result;
 }
 
-/// 255 where streaks change the displayed picture visibly.
-std::vector<uint8_t> rain_mask(const Rows& rows, const IntensityPlanes& rain, const std::vector<Rgb>& background,
-                               const DisplayView& view, float scale, bool paper) {
+/// 255 where streaks at least a pixel wide change the displayed picture visibly.
+std::vector<uint8_t> rain_mask(const Rows& rows, const IntensityPlanes& rain, const DisplayView& view, float scale,
+                               bool paper) {
     std::vector<uint8_t> mask(rows.band_pixels(), 0);
     const size_t first = rows.first_pixel();
     if (paper) {
@@ -106,18 +108,27 @@ std::vector<uint8_t> rain_mask(const Rows& rows, const IntensityPlanes& rain, co
     const Plane coverage_around = box_sums(rain.coverage, rows.width, rows.count);
     std::array<Plane, 3> light_around;
     for (int c = 0; c < 3; ++c) light_around[c] = box_sums(rain.rain[c], rows.width, rows.count);
-    std::vector<Rgb> changed(mask.size());
+    std::vector<Rgb> with(mask.size()), without(mask.size());
     for (size_t i = 0; i < mask.size(); ++i) {
         const size_t k = first + i;
-        const float share = rain.coverage[k] > 0 ? rain.coverage[k] / coverage_around[k] : 0;
-        float value[3];
-        for (int c = 0; c < 3; ++c)
-            value[c] = rows.background[c][k] * rain.transmittance[c][k] + light_around[c][k] * share;
-        changed[i] = Rgb(value[0], value[1], value[2]) * scale;
+        const float coverage = rain.wide_coverage[k], per_coverage = 1 / std::max(coverage_around[k], 1e-30f);
+        const float share = coverage * per_coverage, fine_share = (rain.coverage[k] - coverage) * per_coverage;
+        // What finer rain leaves and adds, if no wide streak hid it, is the picture that these change.
+        const float uncovered = 1 / std::max(1 - coverage, 1e-3f);
+        float value[3], bare[3];
+        for (int c = 0; c < 3; ++c) {
+            const float rest = rows.background[c][k] * rain.transmittance[c][k] + rain.inscatter[c][k] +
+                               light_around[c][k] * fine_share;
+            value[c] = rest + light_around[c][k] * share;
+            bare[c] = rest * uncovered;
+        }
+        with[i] = Rgb(value[0], value[1], value[2]) * scale;
+        without[i] = Rgb(bare[0], bare[1], bare[2]) * scale;
     }
-    view.apply(changed);
+    view.apply(with);
+    view.apply(without);
     for (size_t i = 0; i < mask.size(); ++i) {
-        const Rgb d = changed[i] - background[i];
+        const Rgb d = with[i] - without[i];
         mask[i] = std::max({std::abs(d.r), std::abs(d.g), std::abs(d.b)}) >= mask_threshold ? 255 : 0;
     }
     return mask;
@@ -216,7 +227,7 @@ DisplayReport write_display_files(const std::string& folder, const std::string& 
             IntensityFiles& file = *files[task - 1];
             file.rainy.write_rows(y, rows.band_count, bytes(displayed(rows, rain.rainy, view, scale)).data());
             file.layer.write_rows(y, rows.band_count, bytes(displayed(rows, rain.rain, view, scale)).data());
-            const auto mask = rain_mask(rows, rain, background, view, scale, settings.paper);
+            const auto mask = rain_mask(rows, rain, view, scale, settings.paper);
             file.mask.write_rows(y, rows.band_count, mask.data());
             masked[task - 1] += std::count(mask.begin(), mask.end(), 255);
         });

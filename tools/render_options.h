@@ -27,7 +27,8 @@ struct RenderOptions {
     std::vector<double> wind = {0, 0, 0};
     std::string composition = "physical";
     double streak_gain = 24.5;
-    double streak_width = 1;
+    std::optional<double> streak_width;  // empty: 1/4, or 1 with the paper's composition
+    double fog_beta = 0;
     std::vector<double> camera_velocity;  // empty = as the scene has it
     LightOptions light;
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
@@ -40,6 +41,11 @@ struct RenderOptions {
     bool overwrite = false, json = false;
     std::string progress = "bar";
 };
+
+/// In pixels: the paper draws no drops below one, and what is finer here is a medium.
+inline double streak_width(const RenderOptions& options) {
+    return options.streak_width.value_or(options.composition == "paper" ? 1 : RainSettings().min_width_pixels);
+}
 
 void add_render_options(CLI::App& command, RenderOptions& options);
 

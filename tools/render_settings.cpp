@@ -60,13 +60,15 @@ RenderSettings render_settings(const RenderOptions& o) {
     s.rain.intensities_mm_per_h = o.rain;
     s.rain.wind = vector_from(o.wind, "wind");
     s.rain.seed = o.seed;
-    require_option(o.streak_width >= 0.25 && o.streak_width <= 100, "streak-width", o.streak_width,
-                   "0.25 to 100 pixels");
-    s.rain.min_width_pixels = o.streak_width;
     if (o.composition == "paper")
         s.streaks.composition = Composition::paper;
     else if (o.composition != "physical")
         fail_option("composition", '"' + o.composition + '"', "physical or paper");
+    s.rain.min_width_pixels = streak_width(o);
+    require_option(s.rain.min_width_pixels >= 0.25 && s.rain.min_width_pixels <= 100, "streak-width",
+                   s.rain.min_width_pixels, "0.25 to 100 pixels");
+    require_option(o.fog_beta >= 0 && o.fog_beta <= 1, "fog-beta", o.fog_beta, "0 to 1 per metre");
+    s.rain.fog_extinction = o.fog_beta;
     require_option(o.streak_gain > 0 && o.streak_gain <= 1000, "streak-gain", o.streak_gain, "above 0, up to 1000");
     s.streaks.paper_gain = o.streak_gain;
     return s;

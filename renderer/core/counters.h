@@ -23,13 +23,16 @@ enum class Feature {
     streak_hit,
     streak_path,
     paper_streak,
+    medium_point,
+    medium_path,
+    medium_lamp,
     count,
 };
 
 constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
-    "camera_path", "texture",     "normal_map",    "vertex_color", "alpha", "emissive_surface",
-    "pane",        "local_light", "distant_light", "environment",  "lens",  "streak_test",
-    "streak_hit",  "streak_path", "paper_streak"};
+    "camera_path", "texture",     "normal_map",    "vertex_color", "alpha",       "emissive_surface",
+    "pane",        "local_light", "distant_light", "environment",  "lens",        "streak_test",
+    "streak_hit",  "streak_path", "paper_streak",  "medium_point", "medium_path", "medium_lamp"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

@@ -49,6 +49,8 @@ enum class Draw : uint32_t {
     opacity,
     streak_choice,
     streak_phase,
+    medium_distance,
+    medium_anchor,
 };
 constexpr uint32_t first_draws = 8;
 

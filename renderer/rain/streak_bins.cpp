@@ -89,6 +89,7 @@ StreakBins::StreakBins(std::vector<Streak> streaks, const View& view, int tile_w
     : streaks_(std::move(streaks)),
       footprints_(streaks_.size()),
       exposure_time_(float(view.exposure_time)),
+      focal_pixels_(float(view.focal_pixels)),
       tile_width_(tile_width),
       tile_height_(tile_height),
       columns_((view.width + tile_width - 1) / tile_width),
@@ -143,7 +144,9 @@ void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<S
         if (footprints[index].nearest_depth > farthest) break;
         if (!footprints[index].may_cover(pixel)) continue;
         const std::optional<Covered> covered = covered_interval(streaks[index], ray, bins.exposure_time());
-        if (covered && covered->distance < ray.t_max) hits.push_back({index, *covered});
+        if (!covered || covered->distance >= ray.t_max) continue;
+        const float depth = covered->distance * ray.direction.z;
+        hits.push_back({index, *covered, 2 * streaks[index].radius * bins.focal_pixels() / depth});
     }
     std::sort(hits.begin(), hits.end(), [&](const StreakHit& a, const StreakHit& b) {
         return a.covered.distance != b.covered.distance ? a.covered.distance < b.covered.distance

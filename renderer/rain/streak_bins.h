@@ -39,6 +39,7 @@ public:
     std::span<const Streak> streaks() const { return streaks_; }
     std::span<const StreakFootprint> footprints() const { return footprints_; }
     float exposure_time() const { return exposure_time_; }
+    float focal_pixels() const { return focal_pixels_; }
 
     /// Indices, rising and thereby in order of nearest depth, of the streaks that rays through this pixel may meet.
     /// Outside of the picture: those of the nearest pixel.
@@ -47,7 +48,7 @@ public:
 private:
     std::vector<Streak> streaks_;
     std::vector<StreakFootprint> footprints_;
-    float exposure_time_;
+    float exposure_time_, focal_pixels_;
     int tile_width_, tile_height_, columns_, rows_;
     std::vector<uint64_t> first_;     // of each tile in entries_, row by row, and the end
     std::vector<uint32_t> entries_;
@@ -56,6 +57,7 @@ private:
 struct StreakHit {
     uint32_t streak;  // index into StreakBins::streaks()
     Covered covered;
+    float width;  // of the drop in pixels, at the view depth where it covers the ray
 };
 
 /// Replaces hits by all streaks that cover the ray nearer than ray.t_max, from front to back (ties by key).

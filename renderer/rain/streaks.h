@@ -13,8 +13,9 @@ struct RainSettings {
     std::vector<double> intensities_mm_per_h;  // of all pictures wanted; <= 0 is no rain
     Vec3d wind;                                // m/s, world
     uint64_t seed = 0;
-    double min_width_pixels = 1;  // drops narrower than this belong to the medium; the number of streaks grows as its
-                                  // inverse cube
+    double min_width_pixels = 0.25;  // drops narrower than this belong to the medium; the number of streaks grows as
+                                     // its inverse cube
+    double fog_extinction = 0;       // 1/m, of a fog that hangs where it rains, at every intensity
     double lowest_ground = 0;     // metres, world y: there are drops from here to rain_height above
     double near = 0.1;            // metres of view depth: drops and medium begin here
 };

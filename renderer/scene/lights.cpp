@@ -90,27 +90,43 @@ void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
     }
 }
 
-std::optional<LightSample> Lights::sample_local(const Receiver& receiver, float u_choice, Vec2 u) const {
+std::optional<Lights::LocalPoint> Lights::choose_local(const Receiver& receiver, float u_choice, Vec2 u) const {
     const auto choice = tree_.choose(receiver, u_choice);
     if (!choice) return std::nullopt;
-    const int punctual_count = int(punctual_.size());
-    if (choice->light >= punctual_count)
-        return sample_triangle_light(receiver, choice->light - punctual_count, choice->probability, u);
+    return LocalPoint{choice->light, u, choice->probability};
+}
 
-    const PunctualLight& light = punctual_[choice->light];
-    const Vec3 to_light = Vec3(light.position - Vec3d(receiver.position));
+std::optional<LightSample> Lights::sample_local(const Receiver& receiver, float u_choice, Vec2 u) const {
+    const auto point = choose_local(receiver, u_choice, u);
+    if (!point) return std::nullopt;
+    return illuminate(receiver.position, *point);
+}
+
+Vec3 Lights::position(const LocalPoint& point) const {
+    const int punctual_count = int(punctual_.size());
+    if (point.light < punctual_count) return Vec3(punctual_[point.light].position);
+    const Vec2 b = sample_triangle(point.u);
+    return triangles_[point.light - punctual_count].point(b.x, b.y);
+}
+
+LightSample Lights::illuminate(Vec3 place, const LocalPoint& point) const {
+    const int punctual_count = int(punctual_.size());
+    if (point.light >= punctual_count)
+        return triangle_light(place, triangles_[point.light - punctual_count], point.probability, point.u);
+
+    const PunctualLight& light = punctual_[point.light];
+    const Vec3 to_light = Vec3(light.position - Vec3d(place));
     const float distance_squared = length_squared(to_light);
-    if (distance_squared == 0) return std::nullopt;
+    if (distance_squared == 0) return {Vec3(0, 1, 0), 0, Rgb(0), 1, true};
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
     const float falloff = light.kind == PunctualLight::Kind::spot ? spot_falloff(light, -wi) : 1.0f;
-    return LightSample{wi, distance, light.intensity * (falloff / distance_squared), choice->probability, true};
+    return {wi, distance, light.intensity * (falloff / distance_squared), point.probability, true};
 }
 
-LightSample Lights::sample_triangle_light(const Receiver& receiver, int light, float probability, Vec2 u) const {
-    const EmissiveTriangle& triangle = triangles_[light];
+LightSample Lights::triangle_light(Vec3 place, const EmissiveTriangle& triangle, float probability, Vec2 u) const {
     const Vec2 b = sample_triangle(u);
-    const Vec3 to_light = triangle.point(b.x, b.y) - receiver.position;
+    const Vec3 to_light = triangle.point(b.x, b.y) - place;
     const float distance_squared = length_squared(to_light), distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
     // dA to solid angle; |front| is twice the area, so the cosine and the area are both in this product.

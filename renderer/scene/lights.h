@@ -30,6 +30,20 @@ public:
     bool has_distant() const { return !environment_->is_black() || !directional_.empty(); }
     const Environment& environment() const { return *environment_; }
 
+    /// A point of a local light, and the probability of the choice of the light.
+    struct LocalPoint {
+        int light;
+        Vec2 u;
+        float probability;
+    };
+    /// u_choice picks the light for a receiver, u the point on it. Empty when none reaches it.
+    std::optional<LocalPoint> choose_local(const Receiver& receiver, float u_choice, Vec2 u) const;
+    /// Probability with which choose_local picks this light.
+    float choice_probability(const Receiver& receiver, int light) const { return tree_.probability(receiver, light); }
+    Vec3 position(const LocalPoint& point) const;
+    /// Light from the point to any place; black where it does not shine, and at the point itself.
+    LightSample illuminate(Vec3 place, const LocalPoint& point) const;
+
     /// One local light towards a receiver; u_choice picks the light, u the point on it. Empty when none reaches it.
     std::optional<LightSample> sample_local(const Receiver& receiver, float u_choice, Vec2 u) const;
     /// Pdf with respect to solid angle at which sample_local picks this point of an emissive triangle.
@@ -50,7 +64,7 @@ private:
     };
     void add_punctual(const PunctualLight& light, std::vector<LightBounds>& all);
     void add_triangles(int instance, std::vector<LightBounds>& all);
-    LightSample sample_triangle_light(const Receiver& receiver, int triangle, float probability, Vec2 u) const;
+    LightSample triangle_light(Vec3 place, const EmissiveTriangle& triangle, float probability, Vec2 u) const;
 
     const Scene* scene_;
     const Environment* environment_;

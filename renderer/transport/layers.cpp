@@ -20,6 +20,7 @@ std::vector<std::string> layer_channels(const std::vector<double>& intensities) 
         for (const char* layer : {"transmittance_", "rain_", "inscatter_", "rainy_"})
             for (const char* channel : {".R", ".G", ".B"}) names.push_back(layer + label + channel);
         names.push_back("rain_" + label + ".A");
+        names.push_back("rain_wide_" + label + ".A");
         names.push_back("rainy_Z_" + label);
     }
     return names;
@@ -33,18 +34,19 @@ void develop(const PixelSums& sums, const CentreDepth& depth, int samples, float
     *values++ = depth.distance;
     for (size_t i = 0; i < sums.rain.size(); ++i) {
         const RainSums& rain = sums.rain[i];
-        const double coverage = rain.coverage * weight;
-        std::array<double, 3> passed, light;
+        std::array<double, 3> passed, light, inscatter;
         for (int c = 0; c < 3; ++c) {
             passed[c] = background[c] - rain.removed[c] * weight;
             light[c] = rain.light[c] * weight;
+            inscatter[c] = rain.inscatter[c] * weight;
             // Where the background is black its mean transmission is what can be said.
-            *values++ = float(background[c] > 0 ? passed[c] / background[c] : 1 - coverage);
+            *values++ = float(background[c] > 0 ? passed[c] / background[c] : 1 - rain.blocked * weight);
         }
         for (int c = 0; c < 3; ++c) *values++ = float(light[c]);
-        for (int c = 0; c < 3; ++c) *values++ = 0;
-        for (int c = 0; c < 3; ++c) *values++ = float(passed[c] + light[c]);
-        *values++ = float(coverage);
+        for (int c = 0; c < 3; ++c) *values++ = float(inscatter[c]);
+        for (int c = 0; c < 3; ++c) *values++ = float(passed[c] + light[c] + inscatter[c]);
+        *values++ = float(rain.coverage * weight);
+        *values++ = float(rain.wide_coverage * weight);
         *values++ = depth.rainy_z[i];
     }
 }

@@ -1,6 +1,7 @@
 // The layers of a frame: which channels a file has, and how a pixel's sums become their values.
 // Per pixel and intensity the film keeps the background B, the light M of it that passes the rain, the streaks' light C
-// and their coverage A; then rainy = M + C, so rainy = background * transmittance + rain + inscatter to rounding.
+// and their coverage A, and the light I scattered in by finer rain; then rainy = M + C + I, so
+// rainy = background * transmittance + rain + inscatter to rounding.
 #pragma once
 
 #include "renderer/core/rgb.h"
@@ -16,9 +17,12 @@ std::string intensity_label(double intensity_mm_per_h);
 
 /// Sums over the samples of one pixel at one intensity. Kept in double: thousands of samples add to one value.
 struct RainSums {
-    std::array<double, 3> removed = {};  // background radiance that streaks hide
-    std::array<double, 3> light = {};    // radiance of streaks
-    double coverage = 0;
+    std::array<double, 3> removed = {};    // background radiance that does not pass the rain
+    std::array<double, 3> light = {};      // radiance of streaks
+    std::array<double, 3> inscatter = {};  // radiance of the medium
+    double coverage = 0;                   // by streaks
+    double wide_coverage = 0;              // by those at least a pixel wide
+    double blocked = 0;                    // 1 - transmission
 };
 struct PixelSums {
     std::array<double, 3> background = {};
@@ -35,7 +39,6 @@ struct CentreDepth {
 std::vector<std::string> layer_channels(const std::vector<double>& intensities_mm_per_h);
 
 /// Values of one pixel, in the order of layer_channels. samples: number of samples in the sums.
-/// Rain whose drops are all resolved scatters no light in between: inscatter is 0.
 void develop(const PixelSums& sums, const CentreDepth& depth, int samples, float* values);
 
 /// Rows of a finished picture, one plane per channel.

@@ -1,13 +1,19 @@
 #include "renderer/transport/rain_stage.h"
 
 #include "renderer/core/sampling.h"
-#include "shaders/raindrop.h"
+#include "renderer/transport/equiangular.h"
 #include "shaders/streak.h"
+
+#include <algorithm>
+#include <limits>
 
 namespace pluvia {
 namespace {
 
-constexpr uint64_t rain_domain = 0x7261696e;  // keeps the random numbers of rain apart from those of paths
+// Keep the random numbers of streaks and medium apart from each other and from those of paths.
+constexpr uint64_t rain_domain = 0x7261696e, medium_domain = 0x6d656469;
+
+constexpr float lamp_reach = 200;  // metres within which lamps are looked for; farther ones are found less often
 
 }  // namespace
 
@@ -15,111 +21,214 @@ const char* composition_name(Composition composition) {
     return composition == Composition::paper ? "paper" : "physical";
 }
 
-RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, std::vector<double> intensities,
-                     const StreakSettings& settings)
-    : tracer_(&tracer), bins_(&bins), intensities_(std::move(intensities)), settings_(settings) {}
+RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, const RainMedium* medium,
+                     std::vector<double> intensities, const StreakSettings& settings)
+    : tracer_(&tracer), bins_(&bins), medium_(medium), intensities_(std::move(intensities)), settings_(settings) {}
 
 bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
                          RainScratch& scratch, Counters& counters) const {
     counters.count(Feature::streak_test);
     find_hits(*bins_, segment.pixel, segment.view_ray, scratch.hits);
-    if (scratch.hits.empty()) return false;
+    scratch.scattered_count = 0;
+    scratch.transmissions.assign((scratch.hits.size() + 1) * intensities_.size(), 1.0f);
+    if (medium_) {
+        Ray ray = segment.ray;
+        ray.t_max = segment.view_ray.t_max;
+        const RainSegment in_rain = medium_->segment(ray, segment.view_ray.direction.z);
+        if (!in_rain.empty()) {
+            find_transmissions(in_rain, scratch);
+            scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
+            if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
+        } else if (scratch.hits.empty()) {
+            return false;
+        }
+    } else if (scratch.hits.empty()) {
+        return false;
+    }
     scratch.light.clear();
     for (const StreakHit& hit : scratch.hits) scratch.light.push_back(streak_light(hit, segment, sampler, counters));
-    if (settings_.composition == Composition::paper) {
-        counters.count(Feature::paper_streak);
-        compose_paper(scratch, segment, samples);
-    } else {
-        compose_physical(scratch, samples);
-    }
+    const bool paper = settings_.composition == Composition::paper;
+    if (paper && !scratch.hits.empty()) counters.count(Feature::paper_streak);
+    for (size_t i = 0; i < intensities_.size(); ++i)
+        samples[i] = paper ? compose_paper(scratch, segment, i) : compose_physical(scratch, i);
     return true;
 }
 
-/// Radiance of the drop towards the camera: light sources by a light sample and everything else by a ray that the
-/// phase function continues, weighed against each other. Computed for a share q of the samples and divided by it.
+void RainStage::find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const {
+    const size_t count = scratch.hits.size();
+    for (size_t k = 0; k <= count; ++k) {
+        const float end = k < count ? scratch.hits[k].covered.distance : in_rain.end;
+        float* const values = scratch.transmissions.data() + k * intensities_.size();
+        const float distance = std::clamp(end, in_rain.begin, in_rain.end), fog = medium_->fog_depth(in_rain, distance);
+        medium_->optical_depths(in_rain, distance, values);
+        for (size_t i = 0; i < intensities_.size(); ++i) values[i] = std::exp(-values[i] - fog);
+    }
+}
+
+/// Light of the medium at the distance of scratch.scattering, appended to scratch.scattered with the weights that
+/// roulette leaves. One number decides for all intensities: what one gets does not depend on the others.
+template <class Worth, class Trace>
+static void append_scattered(RainScratch& scratch, float choice, const Worth& worth, const Trace& trace) {
+    const auto& [distance, weights] = scratch.scattering;
+    const float q_max = worth(*std::max_element(weights.begin(), weights.end()));
+    if (q_max < 1 && choice >= q_max) return;
+    const Rgb light = trace();
+    int place = scratch.scattered_count++;
+    for (; place > 0 && scratch.scattered[place - 1].distance > distance; --place)
+        std::swap(scratch.scattered[place - 1], scratch.scattered[place]);
+    RainScratch::Scattered& result = scratch.scattered[place];
+    result.distance = distance;
+    result.light.assign(weights.size(), Rgb(0));
+    for (size_t i = 0; i < weights.size(); ++i) {
+        const float q = worth(weights[i]);
+        if (q >= 1 || choice < q) result.light[i] = light * (weights[i] / std::min(q, 1.0f));
+    }
+}
+
+/// Light from all around at a point of the medium. Of lamps it takes the share that scatter_near_lamp leaves.
+void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain,
+                        const Sampler& pixel_sampler, RainScratch& scratch, Counters& counters) const {
+    const Sampler sampler = pixel_sampler.fork(hash_key(medium_domain, uint64_t(scatterer)));
+    medium_->sample(scatterer, in_rain, sampler.get_1d(Draw::medium_distance), scratch.scattering);
+    const float distance = scratch.scattering.distance;
+    if (distance == 0) return;
+    counters.count(Feature::medium_point);
+    const Vec3 position = segment.ray.at(distance);
+    ScatteredLight event(*tracer_, scatterer, position, segment.ray.direction, sampler);
+    const Lights& lights = tracer_->lights();
+    Vec3 anchor;
+    if (lights.has_local()) {
+        // Lamps are picked for a random point of the segment, wherever on it their light is then looked for. Given that
+        // point the two ways to sample a lamp's light have densities that can be weighed against each other.
+        const float near_end = std::min(in_rain.end, in_rain.begin + lamp_reach);
+        anchor = segment.ray.at(in_rain.begin + sampler.get_1d(Draw::medium_anchor) * (near_end - in_rain.begin));
+        if (const auto& lamp = event.lamp()) {
+            const EquiangularDistance near_lamp(segment.ray, lights.position(*lamp), in_rain.begin, in_rain.end);
+            const float here = medium_->pdf(scatterer, in_rain, distance) * lamp->probability;
+            const float there = near_lamp.pdf(distance) * lights.choice_probability({anchor, Vec3()}, lamp->light);
+            event.weigh_lamp(power_heuristic(here, there));
+        }
+    }
+    const float brightness = std::max(segment.background_luminance, event.unshadowed());
+    append_scattered(
+        scratch, sampler.get_1d(Draw::streak_choice), [&](float weight) { return worth(weight * brightness, segment); },
+        [&] {
+            counters.count(Feature::medium_path);
+            return event.trace(counters);
+        });
+    if (lights.has_local()) scatter_near_lamp(scatterer, segment, in_rain, anchor, sampler, scratch, counters);
+}
+
+/// Light of one lamp at a point of the segment that is sampled close to the lamp: without it the halo of a lamp is all
+/// fireflies.
+void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain,
+                                  Vec3 anchor, const Sampler& event_sampler, RainScratch& scratch,
+                                  Counters& counters) const {
+    const Sampler sampler = event_sampler.fork(medium_domain);
+    const Lights& lights = tracer_->lights();
+    const Vec2 u = sampler.get_2d(Draw::light_choice);
+    const auto lamp = lights.choose_local({anchor, Vec3()}, u.x, sampler.get_2d(Draw::light_point));
+    if (!lamp) return;
+    const EquiangularDistance near_lamp(segment.ray, lights.position(*lamp), in_rain.begin, in_rain.end);
+    const float distance = near_lamp.sample(u.y), density = near_lamp.pdf(distance);
+    const Vec3 position = segment.ray.at(distance);
+    const LightSample light = lights.illuminate(position, *lamp);
+    if (is_black(light.radiance)) return;
+    counters.count(Feature::medium_lamp);
+
+    // The light sample of scatter() at the same place, and the density with which it would have been found there.
+    const float probability = lights.choice_probability({position, Vec3()}, lamp->light);
+    const float there = medium_->pdf(scatterer, in_rain, distance) * probability;
+    float mis = power_heuristic(density * lamp->probability, there);
+    const float phase = scatter_phase(scatterer, dot(light.wi, segment.ray.direction));
+    // What a path continued by the phase function finds is its share as weighed against the light sample of scatter().
+    if (!light.delta) mis *= power_heuristic(light.pdf * probability / lamp->probability, phase);
+    const Rgb contribution = light.radiance * (phase * mis / light.pdf);
+    if (is_black(contribution)) return;
+    medium_->weigh(scatterer, in_rain, distance, density, scratch.scattering);
+    append_scattered(
+        scratch, sampler.get_1d(Draw::streak_choice),
+        [&](float weight) { return worth(weight * luminance(contribution), segment); },
+        [&] {
+            const bool visible =
+                is_visible(tracer_->ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
+            return visible ? contribution : Rgb(0);
+        });
+}
+
+/// Radiance of the drop towards the camera, computed for a share of the samples.
 Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& pixel_sampler,
                             Counters& counters) const {
     counters.count(Feature::streak_hit);
     // Numbers of a drop's own: its light does not depend on which other drops are there.
     const Sampler sampler = pixel_sampler.fork(hash_key(rain_domain, bins_->streaks()[hit.streak].key));
-    const Vec3 position = segment.ray.at(hit.covered.distance), direction = segment.ray.direction;
-    const Receiver receiver{position, Vec3()};
-    const Lights& lights = tracer_->lights();
-
-    struct Candidate {
-        LightSample light;
-        Rgb contribution;  // if the light is visible
-        Draw draw;
-    };
-    std::array<Candidate, 2> candidates;
-    int count = 0;
-    float unshadowed = 0;
-    const auto add = [&](const std::optional<LightSample>& light, Draw draw) {
-        if (!light || is_black(light->radiance)) return;
-        const float phase = drop_phase(dot(light->wi, direction));
-        const float mis = light->delta ? 1.0f : power_heuristic(light->pdf, phase);
-        candidates[count] = {*light, light->radiance * (phase * mis / light->pdf), draw};
-        unshadowed += luminance(candidates[count++].contribution);
-    };
-    const Vec2 choice = sampler.get_2d(Draw::light_choice);
-    if (lights.has_local())
-        add(lights.sample_local(receiver, choice.x, sampler.get_2d(Draw::light_point)), Draw::light_point);
-    if (lights.has_distant()) add(lights.sample_distant(choice.y, sampler.get_2d(Draw::sky_point)), Draw::sky_point);
-
-    // What the drop could bring beside what it hides. It depends on the light sample but not on the number that
-    // decides, so the division by q stays unbiased; a drop beside a lamp has q = 1 and is no firefly.
-    const float expected = hit.covered.fraction() * std::max(segment.background_luminance, unshadowed);
-    const float q = std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));
+    const ScatteredLight event(*tracer_, Scatterer::drop, segment.ray.at(hit.covered.distance), segment.ray.direction,
+                               sampler);
+    // What the light could bring beside the background. It depends on the light sample but not on the number that
+    // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
+    const float brightness = std::max(segment.background_luminance, event.unshadowed());
+    const float q = worth(hit.covered.fraction() * brightness, segment);
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
-
     counters.count(Feature::streak_path);
-    Rgb sum;
-    for (int i = 0; i < count; ++i)
-        if (is_visible(tracer_->ray_scene(), position, candidates[i].light, {sampler.key(candidates[i].draw)},
-                       counters))
-            sum += candidates[i].contribution;
-    const Vec3 wi = sample_drop_phase(direction, sampler.get_2d(Draw::streak_phase));
-    const float pdf = drop_phase(dot(wi, direction));
-    sum += tracer_->trace({position, wi}, {pdf, receiver}, sampler, 1, counters).radiance;
-    return q >= 1 ? sum : sum / q;
+    const Rgb light = event.trace(counters);
+    return q >= 1 ? light : light / q;
 }
 
-void RainStage::compose_physical(const RainScratch& scratch, std::vector<RainSample>& samples) const {
-    const auto& hits = scratch.hits;
-    for (size_t i = 0; i < intensities_.size(); ++i) {
-        ExposureUnion covered;
-        RainSample sample;
-        for (size_t k = 0; k < hits.size(); ++k) {
-            if (bins_->streaks()[hits[k].streak].threshold_mm_per_h > intensities_[i]) continue;
-            sample.light += scratch.light[k] * covered.add(hits[k].covered.begin, hits[k].covered.end);
-        }
-        sample.coverage = covered.total();
-        samples[i] = sample;
+RainSample RainStage::compose_physical(const RainScratch& scratch, size_t intensity) const {
+    const size_t count = scratch.hits.size();
+    const float* const transmission = scratch.transmissions.data() + intensity;
+    ExposureUnion covered;
+    RainSample sample;
+    int scattered = 0;
+    const auto scatter_before = [&](float distance) {
+        for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
+            sample.inscatter += scratch.scattered[scattered].light[intensity] * covered.transmittance();
+    };
+    for (size_t k = 0; k < count; ++k) {
+        const StreakHit& hit = scratch.hits[k];
+        if (bins_->streaks()[hit.streak].threshold_mm_per_h > intensities_[intensity]) continue;
+        scatter_before(hit.covered.distance);
+        const float weight = covered.add(hit.covered.begin, hit.covered.end);
+        if (hit.width >= 1) sample.wide_coverage += weight;
+        sample.light += scratch.light[k] * (weight * transmission[k * intensities_.size()]);
     }
+    scatter_before(std::numeric_limits<float>::infinity());
+    sample.coverage = covered.total();
+    sample.transmission = covered.transmittance() * transmission[count * intensities_.size()];
+    return sample;
 }
 
 /// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain L tau0/T times the streak's texture, in linear light.
-void RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment,
-                              std::vector<RainSample>& samples) const {
-    const auto& hits = scratch.hits;
-    for (size_t i = 0; i < intensities_.size(); ++i) {
-        float transmittance = 1;
-        RainSample sample;
-        for (size_t k = 0; k < hits.size(); ++k) {
-            const Streak& streak = bins_->streaks()[hits[k].streak];
-            if (streak.threshold_mm_per_h > intensities_[i]) continue;
-            const Vec3 d = segment.view_ray.direction;
-            const Vec3 across = streak.velocity - d * dot(streak.velocity, d);
-            const float path = length(across) * bins_->exposure_time();
-            const float alpha = paper_alpha(hits[k].covered.fraction(), 2 * streak.radius, path);
-            const float time = 0.5f * (hits[k].covered.begin + hits[k].covered.end) * bins_->exposure_time();
-            const float texture = streak_texture(2 * streak.radius, time, streak.key);
-            sample.light += scratch.light[k] * (transmittance * alpha * texture * float(settings_.paper_gain));
-            transmittance *= 1 - alpha;
-        }
-        sample.coverage = 1 - transmittance;
-        samples[i] = sample;
+RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const {
+    const size_t count = scratch.hits.size();
+    const float* const transmission = scratch.transmissions.data() + intensity;
+    float transmittance = 1;
+    RainSample sample;
+    int scattered = 0;
+    const auto scatter_before = [&](float distance) {
+        for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
+            sample.inscatter += scratch.scattered[scattered].light[intensity] * transmittance;
+    };
+    for (size_t k = 0; k < count; ++k) {
+        const StreakHit& hit = scratch.hits[k];
+        const Streak& streak = bins_->streaks()[hit.streak];
+        if (streak.threshold_mm_per_h > intensities_[intensity]) continue;
+        scatter_before(hit.covered.distance);
+        const Vec3 d = segment.view_ray.direction;
+        const Vec3 across = streak.velocity - d * dot(streak.velocity, d);
+        const float path = length(across) * bins_->exposure_time();
+        const float alpha = paper_alpha(hit.covered.fraction(), 2 * streak.radius, path);
+        const float time = 0.5f * (hit.covered.begin + hit.covered.end) * bins_->exposure_time();
+        const float texture = streak_texture(2 * streak.radius, time, streak.key);
+        sample.light += scratch.light[k] * (transmission[k * intensities_.size()] * transmittance * alpha * texture *
+                                            float(settings_.paper_gain));
+        if (hit.width >= 1) sample.wide_coverage += transmittance * alpha;
+        transmittance *= 1 - alpha;
     }
+    scatter_before(std::numeric_limits<float>::infinity());
+    sample.coverage = 1 - transmittance;
+    sample.transmission = transmittance * transmission[count * intensities_.size()];
+    return sample;
 }
 
 }  // namespace pluvia

@@ -1,10 +1,15 @@
-// The rain stage: what streaks do to the light of one camera segment, for all intensities at once.
-// It acts on the segment only; light that arrives at surfaces and drops has not met rain.
+// The rain stage: what streaks and the medium of finer rain do to the light of one camera segment, for all intensities
+// at once. It acts on the segment only; light that arrives at surfaces and drops has not met rain. What is lost on the
+// way is scattered and not absorbed: in a uniform world transmitted, streak and scattered light add up to what was
+// there.
 #pragma once
 
+#include "renderer/rain/rain_medium.h"
 #include "renderer/rain/streak_bins.h"
 #include "renderer/transport/path.h"
+#include "renderer/transport/scattered_light.h"
 
+#include <array>
 #include <vector>
 
 namespace pluvia {
@@ -19,7 +24,7 @@ struct StreakSettings {
     /// Factor on the light of streaks with the paper's composition. 24.5 is what the paper's published code amounts to
     /// (exposure 1/60 s over its tau0 of 0.68 ms); 1 would be exact.
     double paper_gain = 24.5;
-    /// A streak's light is computed with probability q = min(1, alpha L_streak / (c L_background)): this is c.
+    /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. Streaks, medium.
     double roulette = 0.1;
 };
 
@@ -32,37 +37,57 @@ struct CameraSegment {
     float background_luminance;  // its mean over the pixel as far as known, to decide what a streak is worth
 };
 
-/// What rain does to a segment at one intensity; the background's weight is 1 - coverage.
+/// What rain does to a segment at one intensity.
 struct RainSample {
-    float coverage = 0;
-    Rgb light;
+    float coverage = 0;       // by streaks
+    float wide_coverage = 0;  // by those at least a pixel wide
+    float transmission = 1;   // of the background, through streaks and medium
+    Rgb light;                // of streaks, through the medium before them
+    Rgb inscatter;            // of the medium, between the streaks before it
 };
 
 /// Buffers of a caller, so that no segment allocates.
 struct RainScratch {
     std::vector<StreakHit> hits;
-    std::vector<Rgb> light;  // per hit
+    std::vector<Rgb> light;            // per hit
+    std::vector<float> transmissions;  // of the medium: per hit, then per intensity; and to the segment's end
+    struct Scattered {
+        float distance;          // metres
+        std::vector<Rgb> light;  // per intensity, with its weight but for the streaks before it
+    };
+    std::array<Scattered, 4> scattered;  // the first scattered_count are valid, in order of distance
+    int scattered_count = 0;
+    RainMedium::Scattering scattering;
 };
 
 class RainStage {
 public:
-    /// Keeps references to tracer and bins. intensities: in mm/h, any order.
-    RainStage(const PathTracer& tracer, const StreakBins& bins, std::vector<double> intensities_mm_per_h,
-              const StreakSettings& settings);
+    /// Keeps references. intensities: in mm/h, any order, those of the medium. medium: null where all rain is streaks.
+    RainStage(const PathTracer& tracer, const StreakBins& bins, const RainMedium* medium,
+              std::vector<double> intensities_mm_per_h, const StreakSettings& settings);
 
-    /// samples: one per intensity, overwritten. False when no streak touches the segment: then samples are untouched.
+    /// samples: one per intensity, overwritten. False when no rain touches the segment: then samples are untouched.
     bool evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
                   RainScratch& scratch, Counters& counters) const;
 
 private:
-    void compose_physical(const RainScratch& scratch, std::vector<RainSample>& samples) const;
-    void compose_paper(const RainScratch& scratch, const CameraSegment& segment,
-                       std::vector<RainSample>& samples) const;
+    void find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const;
+    void scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
+                 RainScratch& scratch, Counters& counters) const;
+    void scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, Vec3 anchor,
+                           const Sampler& sampler, RainScratch& scratch, Counters& counters) const;
+    RainSample compose_physical(const RainScratch& scratch, size_t intensity) const;
+    RainSample compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const;
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler,
                      Counters& counters) const;
+    /// Probability with which light is computed that may bring this luminance.
+    float worth(float expected, const CameraSegment& segment) const {
+        return std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));
+    }
 
     const PathTracer* tracer_;
     const StreakBins* bins_;
+    const RainMedium* medium_;
     std::vector<double> intensities_;
     StreakSettings settings_;
 };

@@ -82,13 +82,16 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
     for (size_t i = 0; i < scratch.rain.size(); ++i) {
         const RainSample& rain = scratch.rain[i];
-        if (!is_finite(rain.light)) {
+        if (!is_finite(rain.light + rain.inscatter)) {
             ++counters.invalid_samples;
             continue;
         }
-        add(sums.rain[i].removed, path.radiance * rain.coverage);
+        add(sums.rain[i].removed, path.radiance * (1 - rain.transmission));
         add(sums.rain[i].light, rain.light);
+        add(sums.rain[i].inscatter, rain.inscatter);
         sums.rain[i].coverage += rain.coverage;
+        sums.rain[i].wide_coverage += rain.wide_coverage;
+        sums.rain[i].blocked += 1 - rain.transmission;
     }
 }
 
@@ -107,8 +110,8 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     find_hits(*frame.bins, centre, seen, scratch.streaks.hits);
     for (const StreakHit& h : scratch.streaks.hits) {
         const Streak& streak = frame.bins->streaks()[h.streak];
+        if (h.width < 1) continue;
         const float z = h.covered.distance * seen.direction.z;
-        if (2 * streak.radius * float(frame.view.focal_pixels) < z) continue;
         for (size_t i = 0; i < depth.rainy_z.size(); ++i)
             if (streak.threshold_mm_per_h <= frame.settings.rain.intensities_mm_per_h[i])
                 depth.rainy_z[i] = std::min(depth.rainy_z[i], z);
@@ -230,6 +233,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     const PathTracer tracer(scene, ray_scene, lights, settings.path);
 
     std::optional<StreakBins> bins;
+    std::optional<RainMedium> medium;
     Frame frame{view, settings, tracer, nullptr, std::nullopt};
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
@@ -242,7 +246,10 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         report.streaks = streaks.size();
         bins.emplace(std::move(streaks), view);
         frame.bins = &*bins;
-        frame.rain.emplace(tracer, *bins, rain.intensities_mm_per_h, settings.streaks);
+        // The paper's pictures have streaks in clear air.
+        const bool fine_rain = settings.streaks.composition == Composition::physical;
+        if (fine_rain || rain.fog_extinction > 0) medium.emplace(view, rain, fine_rain);
+        frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
     report.build_seconds = seconds_since(start);
 

@@ -70,7 +70,7 @@ struct Query {
 
     void meet(uint32_t index) {
         const auto covered = covered_interval((*streaks)[index], *ray, exposure);
-        if (covered && covered->distance < ray->t_max) hits->push_back({index, *covered});
+        if (covered && covered->distance < ray->t_max) hits->push_back({index, *covered, 0});
     }
 };
 

@@ -1,0 +1,50 @@
+// Light that a drop or droplet in the air turns towards the camera: lamps and sky by a light sample and everything else
+// by a path that the phase function continues, weighed against each other.
+#pragma once
+
+#include "renderer/rain/rain_medium.h"
+#include "renderer/transport/path.h"
+
+#include <array>
+
+namespace pluvia {
+
+/// Phase function of a scatterer, 1/sr. cos_theta: cosine of the turn angle, 1 = straight through.
+float scatter_phase(Scatterer scatterer, float cos_theta);
+
+/// One scattering event. Light that reaches it has not met rain. Made in two steps, so that the costly one can be left
+/// to roulette once it is known what the lights may bring.
+class ScatteredLight {
+public:
+    /// direction: of the camera ray, unit. The sampler's numbers belong to this event alone. Keeps references.
+    ScatteredLight(const PathTracer& tracer, Scatterer scatterer, Vec3 position, Vec3 direction,
+                   const Sampler& sampler);
+
+    /// Luminance of the sampled lights if nothing shadows them, in cd/m2.
+    float unshadowed() const { return unshadowed_; }
+    /// The local light that was sampled, if any, and a weight for it where it is sampled in another way as well.
+    const std::optional<Lights::LocalPoint>& lamp() const { return lamp_; }
+    void weigh_lamp(float weight);
+    /// Radiance towards the camera.
+    Rgb trace(Counters& counters) const;
+
+private:
+    struct Candidate {
+        LightSample light;
+        Rgb contribution;  // if the light is visible
+        Draw draw;
+    };
+    float phase(float cos_theta) const { return scatter_phase(scatterer_, cos_theta); }
+    void add(const LightSample& light, Draw draw);
+
+    const PathTracer* tracer_;
+    const Sampler* sampler_;
+    Scatterer scatterer_;
+    Vec3 position_, direction_;
+    std::optional<Lights::LocalPoint> lamp_;  // of the first candidate
+    std::array<Candidate, 2> candidates_;
+    int count_ = 0;
+    float unshadowed_ = 0;
+};
+
+}  // namespace pluvia
