@@ -271,6 +271,10 @@ TEST_CASE("inspect tells what a scene requires, what a frame holds and what rain
     const Json rain = Json::parse(run_program("inspect --rain 100 --json").out);
     CHECK(rain["rain"]["100"]["drops_per_m3"].get<double>() ==
           doctest::Approx(4391).epsilon(1e-3));  // Marshall and Palmer
+    const double expected = rain["rain"]["100"]["resolved_drops_expected"],
+                 drawn = rain["rain"]["100"]["resolved_drops_drawn"];
+    CHECK(expected > 7e5);
+    CHECK(std::abs(drawn - expected) < 5 * std::sqrt(expected));
 }
 
 TEST_CASE("sky tells the light in numbers, and its panorama gives the same light back") {

@@ -1,9 +1,9 @@
 #include "renderer/core/error.h"
 #include "renderer/image/exr.h"
-#include "renderer/rain/drop_size.h"
 #include "tools/commands.h"
 #include "tools/frame_file.h"
 #include "tools/inspect_scene.h"
+#include "tools/rain_inspection.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 struct InspectOptions {
     std::string input;
-    std::vector<double> rain;
+    RainInspectionOptions rain;
     bool json = false, allow_outside = false;
 };
 
@@ -35,16 +35,6 @@ Json inspect_exr(const std::string& path) {
         else
             std::visit([&](const auto& v) { j["attributes"][key] = v; }, value);
     }
-    return j;
-}
-
-/// Closed forms of the drop population, truncated to the diameters that Pluvia models.
-Json drop_statistics(double intensity) {
-    Json j;
-    j["intensity_mm_per_h"] = intensity;
-    j["drops_per_m3"] = number_density(intensity);
-    j["extinction_per_m"] = extinction(intensity);
-    j["volume_flux_mm_per_h"] = rain_rate(intensity) * 3.6e6;
     return j;
 }
 
@@ -80,7 +70,7 @@ void inspect_command(const InspectOptions& options) {
         j = std::filesystem::path(options.input).extension() == ".exr"
                 ? inspect_exr(options.input)
                 : inspect_scene(options.input, options.allow_outside);
-    for (const double intensity : options.rain) j["rain"][fmt::format("{:g}", intensity)] = drop_statistics(intensity);
+    if (!options.rain.intensities.empty()) j["rain"] = inspect_rain(options.rain);
     if (j.empty()) throw usage_error("inspect", "has nothing to look at (expected a scene, an .exr file or --rain)");
     if (options.json)
         std::cout << json_text(j, 2) << "\n";
@@ -95,8 +85,7 @@ void add_inspect_command(CLI::App& app) {
         app.add_subcommand("inspect", "what a scene contains and requires, the channels of an EXR, rain in numbers");
     auto options = std::make_shared<InspectOptions>();
     command->add_option("input", options->input, "scene (.glb, .gltf) or picture (.exr)");
-    command->add_option("--rain", options->rain, "print the drop statistics of these intensities, mm/h")
-        ->delimiter(',');
+    add_rain_inspection_options(*command, options->rain);
     command->add_flag("--json", options->json, "print as JSON");
     command->add_flag("--allow-outside", options->allow_outside,
                       "read files that the scene names outside of its folder");

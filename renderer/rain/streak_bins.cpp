@@ -134,13 +134,25 @@ std::span<const uint32_t> StreakBins::candidates(int pixel_x, int pixel_y) const
     return {entries_.data() + first_[tile], entries_.data() + first_[tile + 1]};
 }
 
-void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits) {
+void StreakBins::find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>& found) const {
+    found.clear();
+    const Vec2 centre{float(pixel_x) + 0.5f, float(pixel_y) + 0.5f};
+    constexpr float half_diagonal = 0.7072f;
+    for (const uint32_t index : candidates(pixel_x, pixel_y)) {
+        const StreakFootprint& footprint = footprints_[index];
+        const float reach = std::sqrt(footprint.radius_squared) + half_diagonal;
+        if (footprint.distance_squared(centre) <= reach * reach) found.push_back(index);
+    }
+}
+
+void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
+               std::vector<StreakHit>& hits) {
     hits.clear();
     const std::span<const Streak> streaks = bins.streaks();
     const std::span<const StreakFootprint> footprints = bins.footprints();
     // The ray's point beside a drop's centre is less than a radius from it, so the depths differ by less than that.
     const float farthest = ray.t_max * ray.direction.z + float(largest_drop / 2);
-    for (const uint32_t index : bins.candidates(int(pixel.x), int(pixel.y))) {
+    for (const uint32_t index : candidates) {
         if (footprints[index].nearest_depth > farthest) break;
         if (!footprints[index].may_cover(pixel)) continue;
         const std::optional<Covered> covered = covered_interval(streaks[index], ray, bins.exposure_time());

@@ -20,12 +20,13 @@ struct StreakFootprint {
     float radius_squared;
     float nearest_depth;           // metres
 
-    bool may_cover(Vec2 pixel) const {
+    float distance_squared(Vec2 pixel) const {
         const float px = pixel.x - x, py = pixel.y - y;
         const float s = std::min(std::max((px * dx + py * dy) * inverse_length_squared, 0.0f), 1.0f);
         const float ex = px - s * dx, ey = py - s * dy;
-        return ex * ex + ey * ey <= radius_squared;
+        return ex * ex + ey * ey;
     }
+    bool may_cover(Vec2 pixel) const { return distance_squared(pixel) <= radius_squared; }
 };
 
 class StreakBins {
@@ -44,6 +45,9 @@ public:
     /// Indices, rising and thereby in order of nearest depth, of the streaks that rays through this pixel may meet.
     /// Outside of the picture: those of the nearest pixel.
     std::span<const uint32_t> candidates(int pixel_x, int pixel_y) const;
+    /// Replaces found by those of them that rays through this very pixel may meet, in the same order: all samples of a
+    /// pixel then share the search.
+    void find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>& found) const;
 
 private:
     std::vector<Streak> streaks_;
@@ -63,6 +67,11 @@ struct StreakHit {
 /// Replaces hits by all streaks that cover the ray nearer than ray.t_max, from front to back (ties by key).
 /// pixel: the position on the picture that the ray belongs to. ray: view coordinates, from a point of the lens (the
 /// origin for a pinhole) through the point in focus behind that pixel position, direction of unit length.
-void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits);
+/// candidates: of the pixel, from either search of the bins; looked up where they are not given.
+void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
+               std::vector<StreakHit>& hits);
+inline void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits) {
+    find_hits(bins, bins.candidates(int(pixel.x), int(pixel.y)), pixel, ray, hits);
+}
 
 }  // namespace pluvia

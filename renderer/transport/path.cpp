@@ -11,7 +11,8 @@ constexpr float max_survival = 0.95f;  // below 1, so that a closed white room c
 
 }  // namespace
 
-PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters) const {
+PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
+                             float importance) const {
     PathResult result;
     Rgb throughput(1);
     const int first_bounce = bounce;
@@ -48,8 +49,8 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if ((dot(wi, surface.geometric_normal) > 0) == next->transmitted) return result;
         throughput *= next->weight;
         if (is_black(throughput)) return result;
-        if (bounce >= first_roulette_bounce) {
-            const float survival = std::min(max_survival, max_component(throughput));
+        if (bounce >= first_roulette_bounce || importance < 1) {
+            const float survival = std::min(max_survival, importance * max_component(throughput));
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }

@@ -24,7 +24,9 @@ public:
         : scene_(&scene), ray_scene_(&ray_scene), lights_(&lights), settings_(settings) {}
 
     /// bounce: scattering events before this ray; it selects the random numbers and counts towards max_bounces.
-    PathResult trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters) const;
+    /// importance: below 1 where the path brings little to its pixel: roulette then sets in at once and is stricter.
+    PathResult trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
+                     float importance = 1) const;
 
     const Lights& lights() const { return *lights_; }
     const RayScene& ray_scene() const { return *ray_scene_; }

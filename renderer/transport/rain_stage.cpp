@@ -28,30 +28,39 @@ RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, const Rai
 bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
                          RainScratch& scratch, Counters& counters) const {
     counters.count(Feature::streak_test);
-    find_hits(*bins_, segment.pixel, segment.view_ray, scratch.hits);
+    find_hits(*bins_, segment.candidates, segment.pixel, segment.view_ray, scratch.hits);
     scratch.scattered_count = 0;
     scratch.transmissions.assign((scratch.hits.size() + 1) * intensities_.size(), 1.0f);
+    RainSegment in_rain;
     if (medium_) {
         Ray ray = segment.ray;
         ray.t_max = segment.view_ray.t_max;
-        const RainSegment in_rain = medium_->segment(ray, segment.view_ray.direction.z);
-        if (!in_rain.empty()) {
-            find_transmissions(in_rain, scratch);
-            scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
-            if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
-        } else if (scratch.hits.empty()) {
-            return false;
-        }
-    } else if (scratch.hits.empty()) {
-        return false;
+        in_rain = medium_->segment(ray, segment.view_ray.direction.z);
+    }
+    if (scratch.hits.empty() && in_rain.empty()) return false;
+    sample_distant(sampler, scratch);
+    if (!in_rain.empty()) {
+        find_transmissions(in_rain, scratch);
+        scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
+        if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
     }
     scratch.light.clear();
-    for (const StreakHit& hit : scratch.hits) scratch.light.push_back(streak_light(hit, segment, sampler, counters));
+    for (const StreakHit& hit : scratch.hits)
+        scratch.light.push_back(streak_light(hit, segment, scratch.distant, sampler, counters));
     const bool paper = settings_.composition == Composition::paper;
     if (paper && !scratch.hits.empty()) counters.count(Feature::paper_streak);
     for (size_t i = 0; i < intensities_.size(); ++i)
         samples[i] = paper ? compose_paper(scratch, segment, i) : compose_physical(scratch, i);
     return true;
+}
+
+/// One direction of sun or sky for all drops on the ray: from infinitely far it is the same light for all of them.
+void RainStage::sample_distant(const Sampler& pixel_sampler, RainScratch& scratch) const {
+    const Lights& lights = tracer_->lights();
+    scratch.distant.reset();
+    if (!lights.has_distant()) return;
+    const VertexNumbers u = pixel_sampler.fork(rain_domain).vertex(0);
+    scratch.distant = lights.sample_distant(u.get_1d(Draw::light_choice), u.get_2d(Draw::sky_point));
 }
 
 void RainStage::find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const {
@@ -94,7 +103,7 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
     if (distance == 0) return;
     counters.count(Feature::medium_point);
     const Vec3 position = segment.ray.at(distance);
-    ScatteredLight event(*tracer_, scatterer, position, segment.ray.direction, sampler);
+    ScatteredLight event(*tracer_, scatterer, position, segment.ray.direction, scratch.distant, sampler);
     const Lights& lights = tracer_->lights();
     Vec3 anchor;
     if (lights.has_local()) {
@@ -157,13 +166,14 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
 }
 
 /// Radiance of the drop towards the camera, computed for a share of the samples.
-Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& pixel_sampler,
+Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
+                            const std::optional<LightSample>& distant, const Sampler& pixel_sampler,
                             Counters& counters) const {
     counters.count(Feature::streak_hit);
     // Numbers of a drop's own: its light does not depend on which other drops are there.
     const Sampler sampler = pixel_sampler.fork(hash_key(rain_domain, bins_->streaks()[hit.streak].key));
     const ScatteredLight event(*tracer_, Scatterer::drop, segment.ray.at(hit.covered.distance), segment.ray.direction,
-                               sampler);
+                               distant, sampler);
     // What the light could bring beside the background. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
     const float brightness = std::max(segment.background_luminance, event.unshadowed());

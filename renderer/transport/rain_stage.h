@@ -10,6 +10,8 @@
 #include "renderer/transport/scattered_light.h"
 
 #include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace pluvia {
@@ -30,11 +32,12 @@ struct StreakSettings {
 
 /// From the camera to the first surface.
 struct CameraSegment {
-    Vec2 pixel;                  // position on the picture
-    Ray ray;                     // scene coordinates
-    Ray view_ray;                // the same in view coordinates; t_max = distance to the first surface
-    Rgb background;              // radiance that arrives along the ray without rain
-    float background_luminance;  // its mean over the pixel as far as known, to decide what a streak is worth
+    Vec2 pixel;                            // position on the picture
+    std::span<const uint32_t> candidates;  // of StreakBins::find_candidates for that pixel
+    Ray ray;                               // scene coordinates
+    Ray view_ray;                          // the same in view coordinates; t_max = distance to the first surface
+    Rgb background;                        // radiance that arrives along the ray without rain
+    float background_luminance;            // its mean over the pixel as far as known, to decide what a streak is worth
 };
 
 /// What rain does to a segment at one intensity.
@@ -49,8 +52,9 @@ struct RainSample {
 /// Buffers of a caller, so that no segment allocates.
 struct RainScratch {
     std::vector<StreakHit> hits;
-    std::vector<Rgb> light;            // per hit
-    std::vector<float> transmissions;  // of the medium: per hit, then per intensity; and to the segment's end
+    std::optional<LightSample> distant;  // of sun and sky, for all events on the segment
+    std::vector<Rgb> light;              // per hit
+    std::vector<float> transmissions;    // of the medium: per hit, then per intensity; and to the segment's end
     struct Scattered {
         float distance;          // metres
         std::vector<Rgb> light;  // per intensity, with its weight but for the streaks before it
@@ -71,6 +75,7 @@ public:
                   RainScratch& scratch, Counters& counters) const;
 
 private:
+    void sample_distant(const Sampler& sampler, RainScratch& scratch) const;
     void find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const;
     void scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
                  RainScratch& scratch, Counters& counters) const;
@@ -78,8 +83,8 @@ private:
                            const Sampler& sampler, RainScratch& scratch, Counters& counters) const;
     RainSample compose_physical(const RainScratch& scratch, size_t intensity) const;
     RainSample compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const;
-    Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler,
-                     Counters& counters) const;
+    Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,
+                     const Sampler& sampler, Counters& counters) const;
     /// Probability with which light is computed that may bring this luminance.
     float worth(float expected, const CameraSegment& segment) const {
         return std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));

@@ -56,6 +56,7 @@ struct Scratch {
     CentreDepth depth;
     std::vector<RainSample> rain;
     RainScratch streaks;
+    std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<float> values;
 };
 
@@ -78,7 +79,8 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 
     seen.t_max = path.distance;
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
-    const CameraSegment segment{pixel, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    const CameraSegment segment{pixel, scratch.candidates, ray,
+                                seen,  path.radiance,      luminance(mean) / float(index + 1)};
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
     for (size_t i = 0; i < scratch.rain.size(); ++i) {
         const RainSample& rain = scratch.rain[i];
@@ -107,7 +109,7 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
     if (!frame.bins) return;
     seen.t_max = depth.distance;
-    find_hits(*frame.bins, centre, seen, scratch.streaks.hits);
+    find_hits(*frame.bins, scratch.candidates, centre, seen, scratch.streaks.hits);
     for (const StreakHit& h : scratch.streaks.hits) {
         const Streak& streak = frame.bins->streaks()[h.streak];
         if (h.width < 1) continue;
@@ -146,6 +148,7 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
         for (int x = x_begin; x < x_end; ++x) {
             scratch.sums.background = {};
             scratch.sums.rain.assign(frame.intensity_count(), {});
+            if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
             for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
             find_depth(frame, x, y, scratch, counters);
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());

@@ -5,24 +5,29 @@
 #include "shaders/raindrop.h"
 
 namespace pluvia {
+namespace {
+
+// Roulette lets scattered light be computed for few samples, and for those it is this part of their pixel's light or
+// so.
+constexpr float path_importance = 0.4f;
+
+}  // namespace
 
 float scatter_phase(Scatterer scatterer, float cos_theta) {
     return scatterer == Scatterer::drop ? drop_phase(cos_theta) : fog_phase(cos_theta);
 }
 
 ScatteredLight::ScatteredLight(const PathTracer& tracer, Scatterer scatterer, Vec3 position, Vec3 direction,
-                               const Sampler& sampler)
+                               const std::optional<LightSample>& distant, const Sampler& sampler)
     : tracer_(&tracer), sampler_(&sampler), scatterer_(scatterer), position_(position), direction_(direction) {
     const Lights& lights = tracer.lights();
-    const Vec2 choice = sampler.get_2d(Draw::light_choice);
     if (lights.has_local()) {
-        lamp_ = lights.choose_local({position, Vec3()}, choice.x, sampler.get_2d(Draw::light_point));
+        lamp_ = lights.choose_local({position, Vec3()}, sampler.get_1d(Draw::light_choice),
+                                    sampler.get_2d(Draw::light_point));
         if (lamp_) add(lights.illuminate(position, *lamp_), Draw::light_point);
         if (count_ == 0) lamp_.reset();
     }
-    if (lights.has_distant())
-        if (const auto light = lights.sample_distant(choice.y, sampler.get_2d(Draw::sky_point)))
-            add(*light, Draw::sky_point);
+    if (distant) add(*distant, Draw::sky_point);
 }
 
 void ScatteredLight::add(const LightSample& light, Draw draw) {
@@ -47,9 +52,9 @@ Rgb ScatteredLight::trace(Counters& counters) const {
             sum += candidates_[i].contribution;
     const Vec2 u = sampler_->get_2d(Draw::streak_phase);
     const Vec3 wi = scatterer_ == Scatterer::drop ? sample_drop_phase(direction_, u) : sample_fog_phase(direction_, u);
-    return sum +
-           tracer_->trace({position_, wi}, {phase(dot(wi, direction_)), {position_, Vec3()}}, *sampler_, 1, counters)
-               .radiance;
+    const PathResult path = tracer_->trace({position_, wi}, {phase(dot(wi, direction_)), {position_, Vec3()}},
+                                           *sampler_, 1, counters, path_importance);
+    return sum + path.radiance;
 }
 
 }  // namespace pluvia

@@ -16,9 +16,10 @@ float scatter_phase(Scatterer scatterer, float cos_theta);
 /// to roulette once it is known what the lights may bring.
 class ScatteredLight {
 public:
-    /// direction: of the camera ray, unit. The sampler's numbers belong to this event alone. Keeps references.
+    /// direction: of the camera ray, unit. distant: sample of sun and sky, which may serve many events; empty: there
+    /// is none. The sampler's numbers belong to this event alone. Keeps references.
     ScatteredLight(const PathTracer& tracer, Scatterer scatterer, Vec3 position, Vec3 direction,
-                   const Sampler& sampler);
+                   const std::optional<LightSample>& distant, const Sampler& sampler);
 
     /// Luminance of the sampled lights if nothing shadows them, in cd/m2.
     float unshadowed() const { return unshadowed_; }
