@@ -192,7 +192,8 @@ TEST_CASE("no radiance is negative or not finite, at any height, in clean air an
                         for (int k = 0; k < band_count; ++k) CHECK((std::isfinite(light[k]) && light[k] >= 0));
                     }
             }
-            for (const Rgb& c : SkyView(tables, sun).values())
+            const SkyView view(tables, sun);
+            for (const Rgb& c : view.values())
                 if (!(is_finite(c) && std::min({c.r, c.g, c.b}) >= 0)) FAIL_CHECK("bad texel at sun " << degrees);
         }
     }
