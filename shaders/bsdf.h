@@ -1,5 +1,6 @@
 // Bsdf: how a surface scatters light at one point, as the closed set of models that scenes use.
-// Conventions: bsdf_sample.h; the models: metallic_roughness.h, pane.h.
+// Conventions: bsdf_sample.h; the models: metallic_roughness.h, layered.h, pane.h, frosted_pane.h, glass.h,
+// black.h.
 //
 // A path prepares the Bsdf of a hit once for its wo, then samples it and evaluates it for each light:
 //     const PreparedBsdf bsdf = prepare(material, wo);
@@ -7,7 +8,11 @@
 //     const std::optional<BsdfSample> next = sample(bsdf, u_lobe, u);
 #pragma once
 
+#include "shaders/black.h"
 #include "shaders/bsdf_sample.h"
+#include "shaders/frosted_pane.h"
+#include "shaders/glass.h"
+#include "shaders/layered.h"
 #include "shaders/metallic_roughness.h"
 #include "shaders/pane.h"
 
@@ -16,15 +21,20 @@
 
 namespace pluvia {
 
-using Bsdf = std::variant<MetallicRoughness, Pane>;
-using PreparedBsdf = std::variant<PreparedMetallicRoughness, PreparedPane>;
+using Bsdf = std::variant<MetallicRoughness, Pane, Layered, FrostedPane, Glass, Black>;
+using PreparedBsdf = std::variant<PreparedMetallicRoughness, PreparedPane, PreparedLayered, PreparedFrostedPane,
+                                  PreparedGlass, PreparedBlack>;
 
-/// True where all lobes are deltas, so that sampling lights is in vain.
-inline bool is_delta(const Bsdf& bsdf) {
-    return std::holds_alternative<Pane>(bsdf);
-}
+/// True where sampling lights is in vain: all lobes are deltas, or there are none.
 inline bool is_delta(const PreparedBsdf& bsdf) {
-    return std::holds_alternative<PreparedPane>(bsdf);
+    const auto* glass = std::get_if<PreparedGlass>(&bsdf);
+    return std::holds_alternative<PreparedPane>(bsdf) || std::holds_alternative<PreparedBlack>(bsdf) ||
+           (glass && glass->smooth);
+}
+
+/// True where light from below the surface may arrive through a lobe that is no delta.
+inline bool is_translucent(const PreparedBsdf& bsdf) {
+    return std::holds_alternative<PreparedFrostedPane>(bsdf) || std::holds_alternative<PreparedGlass>(bsdf);
 }
 
 /// Computes what depends on wo alone.

@@ -40,6 +40,7 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo) {
     if (material.metallic == 0 && material.specular == 0) {
         seen.lambert = true;
         seen.diffuse = diffuse_color / pi;
+        seen.reflected = luminance(diffuse_color);
         return seen;
     }
     if (wo.z <= 0) return seen;
@@ -73,10 +74,13 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo) {
     const float multiple = luminance(seen.multiple) * pi * average.lost;
     const float total = specular + diffuse + multiple;
     if (total > 0) {
+        seen.reflected = total;
         const float scale = 1 / total;
         seen.specular_chance = specular * scale;
-        seen.diffuse_chance = diffuse * scale;
-        seen.multiple_chance = multiple * scale;
+        // What rough surfaces lose is lost at all angles and so returns about as a cosine; smooth ones lose it near the
+        // horizon, where the choice by what is lost looks.
+        seen.diffuse_chance = (diffuse + seen.ggx.alpha * multiple) * scale;
+        seen.multiple_chance = (1 - seen.ggx.alpha) * multiple * scale;
     }
     return seen;
 }
@@ -97,18 +101,28 @@ BsdfValue evaluate(const PreparedMetallicRoughness& seen, Vec3 wi) {
                 seen.multiple_chance * seen.albedo.pdf_lost_cosine(wi.z) / (2 * pi)};
 }
 
-std::optional<BsdfSample> sample(const PreparedMetallicRoughness& seen, float u_lobe, Vec2 u) {
-    if (seen.wo.z <= 0) return std::nullopt;
-    Vec3 wi;
+MetallicRoughnessParts evaluate_parts(const PreparedMetallicRoughness& seen, Vec3 wi) {
+    if (seen.wo.z <= 0 || wi.z <= 0) return {};
+    const BsdfValue whole = evaluate(seen, wi);
+    if (seen.lambert) return {Rgb(0), whole.f_cos, whole.pdf};
+    const Rgb diffuse = seen.diffuse * (seen.coat_passed(seen.albedo.at(wi.z)) * wi.z);
+    const Rgb s = whole.f_cos - diffuse;
+    return {{std::max(0.0f, s.r), std::max(0.0f, s.g), std::max(0.0f, s.b)}, diffuse, whole.pdf};
+}
+
+Vec3 sample_direction(const PreparedMetallicRoughness& seen, float u_lobe, Vec2 u) {
     if (u_lobe < seen.specular_chance) {
         const Vec3 h = sample_visible_normal(seen.ggx, seen.wo, u);
-        wi = h * (2 * dot(seen.wo, h)) - seen.wo;
-    } else if (seen.lambert || u_lobe < seen.specular_chance + seen.diffuse_chance) {
-        wi = sample_cosine_hemisphere(u);
-    } else {
-        const float mu = seen.albedo.sample_lost_cosine(u.x), r = std::sqrt((1 - mu) * (1 + mu)), phi = 2 * pi * u.y;
-        wi = {r * std::cos(phi), r * std::sin(phi), mu};
+        return h * (2 * dot(seen.wo, h)) - seen.wo;
     }
+    if (seen.lambert || u_lobe < seen.specular_chance + seen.diffuse_chance) return sample_cosine_hemisphere(u);
+    const float mu = seen.albedo.sample_lost_cosine(u.x), r = std::sqrt((1 - mu) * (1 + mu)), phi = 2 * pi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), mu};
+}
+
+std::optional<BsdfSample> sample(const PreparedMetallicRoughness& seen, float u_lobe, Vec2 u) {
+    if (seen.wo.z <= 0) return std::nullopt;
+    const Vec3 wi = sample_direction(seen, u_lobe, u);
     // Every lobe reaches every direction, so the weight divides by the pdf of the mixture.
     const BsdfValue value = evaluate(seen, wi);
     if (value.pdf <= 0 || is_black(value.f_cos)) return std::nullopt;

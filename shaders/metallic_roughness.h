@@ -25,10 +25,11 @@ struct MetallicRoughness {
 struct PreparedMetallicRoughness {
     Vec3 wo;
     bool lambert = false;  // no specular reflection at all: only `diffuse` and `wo` are used
-    // Probabilities of the lobes in sample().
+    // Probabilities with which sample() draws as each lobe does.
     float specular_chance = 0, diffuse_chance = 0, multiple_chance = 0;
-    Rgb f0;         // Schlick's reflectance at normal incidence
-    float f90 = 0;  // and at grazing
+    float reflected = 0;  // about the luminance of what returns in all directions, by which layers share out chances
+    Rgb f0;               // Schlick's reflectance at normal incidence
+    float f90 = 0;        // and at grazing
     Ggx ggx;
     GgxView view;
     GgxAlbedoRow albedo;
@@ -47,6 +48,16 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo);
 
 /// Zero where wo or wi is not above the surface.
 BsdfValue evaluate(const PreparedMetallicRoughness& material, Vec3 wi);
+
+/// f |cos theta_i| of the specular lobes and of the diffuse base apart, for layers above that treat them differently.
+struct MetallicRoughnessParts {
+    Rgb specular, diffuse;
+    float pdf = 0;
+};
+MetallicRoughnessParts evaluate_parts(const PreparedMetallicRoughness& material, Vec3 wi);
+
+/// A direction drawn with the pdf of evaluate(); it may lie below the surface. wo must be above it.
+Vec3 sample_direction(const PreparedMetallicRoughness& material, float u_lobe, Vec2 u);
 
 /// Empty where the drawn direction would enter the surface, or nothing is reflected: the path ends.
 /// u_lobe and u: uniform in [0, 1).

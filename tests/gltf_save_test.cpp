@@ -29,6 +29,11 @@ Scene scene_of_everything() {
     m.emission = {900, 300, 0.5f};
     m.base_color_texture = 0, m.metallic_roughness_texture = 1, m.normal_texture = 1, m.emission_texture = 0;
     m.specular_color = {0.5f, 2, 0.25f};
+    m.clearcoat = 0.5f, m.clearcoat_roughness = 0.25f, m.clearcoat_normal_scale = 2;
+    m.clearcoat_texture = 0, m.clearcoat_roughness_texture = m.clearcoat_normal_texture = 1;
+    m.sheen_color = {0.25f, 0.5f, 0.75f}, m.sheen_roughness = 0.5f;
+    m.sheen_color_texture = 0, m.sheen_roughness_texture = 1;
+    m.unlit = true;
     m.specular_texture = 1, m.specular_color_texture = 0, m.transmission_texture = 1;
     m.normal_texture.uv_set = m.specular_texture.uv_set = 1;
     for (TextureSlot* slot : {&m.base_color_texture, &m.specular_color_texture}) {
@@ -39,6 +44,9 @@ Scene scene_of_everything() {
     m.alpha_mode = AlphaMode::mask, m.alpha_cutoff = 0.3f;
     m.double_sided = true;
     scene.materials = {m, Material{.name = "plain", .emission = Rgb(0.25f), .alpha_mode = AlphaMode::blend}};
+    Material body{.name = "body", .transmission = 1};  // of no mesh: the triangle below has edges
+    body.thickness = 0.25f, body.attenuation_color = {0.5f, 0.75f, 1}, body.attenuation_distance = 2;
+    scene.materials.push_back(body);
     Mesh mesh;
     mesh.name = "triangle";
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.1f}};
@@ -113,8 +121,8 @@ TEST_CASE("a scene comes back from its .glb with every setting of its materials"
     save_glb(scene, folder / "a.glb");
     const Scene back = load_gltf(folder / "a.glb");
     CHECK(back.warnings.empty());
-    REQUIRE(back.materials.size() >= 2);
-    for (int i = 0; i < 2; ++i) {
+    REQUIRE(back.materials.size() >= 3);
+    for (int i = 0; i < 3; ++i) {
         const Material &a = scene.materials[i], &b = back.materials[i];
         CAPTURE(a.name);
         CHECK(a.name == b.name);
@@ -127,6 +135,15 @@ TEST_CASE("a scene comes back from its .glb with every setting of its materials"
         CHECK(a.transmission == b.transmission);
         CHECK(close(a.emission, b.emission));
         CHECK(a.specular_color == b.specular_color);
+        CHECK(a.thickness == b.thickness);
+        CHECK(a.attenuation_color == b.attenuation_color);
+        CHECK(a.attenuation_distance == b.attenuation_distance);
+        CHECK(a.clearcoat == b.clearcoat);
+        CHECK(a.clearcoat_roughness == b.clearcoat_roughness);
+        CHECK(a.clearcoat_normal_scale == b.clearcoat_normal_scale);
+        CHECK(a.sheen_color == b.sheen_color);
+        CHECK(a.sheen_roughness == b.sheen_roughness);
+        CHECK(a.unlit == b.unlit);
         check_slots(a, b);
         CHECK(a.normal_scale == b.normal_scale);
         CHECK(a.alpha_mode == b.alpha_mode);

@@ -269,13 +269,14 @@ TEST_CASE("the same content as .gltf and as .glb gives the same scene") {
 
 TEST_CASE("what a file asks for and does not get is named in a warning") {
     GltfDraft draft = triangle_draft();
-    draft.root["extensionsUsed"] = {"KHR_materials_sheen", "KHR_materials_ior"};
+    draft.root["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_materials_ior"};
     auto& primitives = draft.root["meshes"][0]["primitives"];
     primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
     primitives.push_back({{"attributes", {{"POSITION", 0}}}, {"mode", 1}});
     const Scene scene = load(draft);
     CHECK(scene.meshes.size() == 1);
-    for (const char* text : {"KHR_materials_sheen", "primitive 1 is made of points", "primitive 2 is made of lines"}) {
+    for (const char* text :
+         {"KHR_materials_iridescence", "primitive 1 is made of points", "primitive 2 is made of lines"}) {
         CAPTURE(text);
         CHECK(warns(scene, text));
     }

@@ -26,9 +26,11 @@ int add_texture(Scene& scene, Rgba8 texel) {
 TEST_CASE("a plain scene calls no feature that it lacks") {
     const Counters c = count(plain(), Environment::uniform(Rgb(1)), {.samples = 2});
     for (const Feature feature :
-         {Feature::texture, Feature::normal_map, Feature::vertex_color, Feature::alpha, Feature::emissive_surface,
-          Feature::pane, Feature::local_light, Feature::lens, Feature::streak_test, Feature::streak_hit,
-          Feature::streak_path, Feature::paper_streak, Feature::medium_point, Feature::medium_path,
+         {Feature::texture,          Feature::normal_map,   Feature::vertex_color, Feature::alpha,
+          Feature::emissive_surface, Feature::pane,         Feature::frosted_pane, Feature::glass,
+          Feature::volume,           Feature::clearcoat,    Feature::sheen,        Feature::unlit,
+          Feature::local_light,      Feature::lens,         Feature::streak_test,  Feature::streak_hit,
+          Feature::streak_path,      Feature::paper_streak, Feature::medium_point, Feature::medium_path,
           Feature::medium_lamp}) {
         CAPTURE(feature_names[size_t(feature)]);
         CHECK(c[feature] == 0);
@@ -73,8 +75,18 @@ TEST_CASE("each feature is called once a scene has it") {
     check(Feature::emissive_surface, [](Scene& s) { s.materials[0].emission = Rgb(1); });
     check(Feature::local_light, [](Scene& s) { s.materials[0].emission = Rgb(1); });
     check(Feature::pane, [](Scene& s) {
-        for (Material& m : s.materials) m.transmission = 1;
+        for (Material& m : s.materials) m.transmission = 1, m.metallic = m.roughness = 0;
     });
+    check(Feature::frosted_pane, [](Scene& s) {
+        for (Material& m : s.materials) m.transmission = 1, m.metallic = 0, m.roughness = 0.5f;
+    });
+    for (const Feature feature : {Feature::glass, Feature::volume})
+        check(feature, [](Scene& s) {
+            for (Material& m : s.materials) m.transmission = m.thickness = 1, m.metallic = 0;
+        });
+    check(Feature::clearcoat, [](Scene& s) { s.materials[0].clearcoat = 1; });
+    check(Feature::sheen, [](Scene& s) { s.materials[0].sheen_color = Rgb(1); });
+    check(Feature::unlit, [](Scene& s) { s.materials[0].unlit = true; });
     View view = court_view(32, 16);
     view.lens_radius = 0.01;
     CHECK(count(plain(), world, {.samples = 2}, view)[Feature::lens] > 0);

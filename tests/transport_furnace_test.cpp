@@ -64,7 +64,7 @@ TEST_CASE("in a uniform world surfaces that absorb nothing are invisible") {
     Material plastic = lambert(Rgb(1));
     plastic.specular = 1, plastic.roughness = 0.4f;
     Material pane = lambert(Rgb(1));
-    pane.transmission = 1;
+    pane.transmission = 1, pane.roughness = 0;
     Material veil = lambert(Rgb(1));
     veil.alpha_mode = AlphaMode::blend, veil.alpha = 0.5f;
     Material half_pane = pane;

@@ -88,6 +88,7 @@ void render_command(const RenderOptions& options) {
     if (options.camera_velocity.empty()) camera_options.velocity = velocity_of(scene, contents, camera);
     const uint64_t scene_hash = content_hash(scene);  // of the file, whatever is switched off
     if (lamp_count(scene) > 0 && !lamps_are_on(options.light, environment)) switch_off_lamps(scene);
+    scene.unlit_luminance = unlit_luminance(exposure, environment);
     prepare_folder(options);
 
     FrameHeader header{scene.name,

@@ -54,6 +54,10 @@ CameraSettings camera_settings(const RenderOptions& options);
 RenderSettings render_settings(const RenderOptions& options);
 /// Empty where the exposure is measured from the picture.
 std::optional<double> exposure_ev100(const RenderOptions& options);
+/// What makes a white unlit surface (KHR_materials_unlit) white in the picture, in cd/m2: at a given exposure the
+/// brightest that is displayed; where the exposure is measured, the luminance of white paper under the environment's
+/// sky, or 100 where there is none.
+float unlit_luminance(const std::optional<double>& ev100, const Environment& environment);
 
 /// Options that decide over the picture, with their values, as recorded in every file.
 nlohmann::ordered_json to_json(const RenderOptions& options);

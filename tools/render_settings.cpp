@@ -1,5 +1,6 @@
 // What the options mean: checked and turned into settings of camera, renderer and display.
 #include "renderer/core/units.h"
+#include "renderer/image/exposure.h"
 #include "tools/option_check.h"
 #include "tools/render_options.h"
 
@@ -80,6 +81,12 @@ std::optional<double> exposure_ev100(const RenderOptions& o) {
     if (!parse_number(o.exposure, ev) || !(std::abs(ev) <= 40))
         fail_option("exposure", '"' + o.exposure + '"', "an EV from -40 to 40, or auto");
     return ev;
+}
+
+float unlit_luminance(const std::optional<double>& ev100, const Environment& environment) {
+    if (ev100) return 1 / exposure_scale(*ev100);
+    const double paper = environment.horizontal_illuminance() / pi;
+    return paper > 0 ? float(paper) : 100.0f;
 }
 
 }  // namespace pluvia

@@ -15,6 +15,12 @@ enum class Feature {
     alpha,
     emissive_surface,
     pane,
+    frosted_pane,
+    glass,
+    volume,
+    clearcoat,
+    sheen,
+    unlit,
     local_light,
     distant_light,
     environment,
@@ -30,9 +36,10 @@ enum class Feature {
 };
 
 constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
-    "camera_path", "texture",     "normal_map",    "vertex_color", "alpha",       "emissive_surface",
-    "pane",        "local_light", "distant_light", "environment",  "lens",        "streak_test",
-    "streak_hit",  "streak_path", "paper_streak",  "medium_point", "medium_path", "medium_lamp"};
+    "camera_path", "texture",      "normal_map",    "vertex_color", "alpha",       "emissive_surface",
+    "pane",        "frosted_pane", "glass",         "volume",       "clearcoat",   "sheen",
+    "unlit",       "local_light",  "distant_light", "environment",  "lens",        "streak_test",
+    "streak_hit",  "streak_path",  "paper_streak",  "medium_point", "medium_path", "medium_lamp"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

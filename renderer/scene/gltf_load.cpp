@@ -8,6 +8,7 @@
 #include "renderer/scene/gltf_mesh.h"
 #include "renderer/scene/gltf_nodes.h"
 #include "renderer/scene/gltf_parse.h"
+#include "renderer/scene/open_volumes.h"
 
 #include <fmt/format.h>
 
@@ -314,6 +315,7 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfConte
         contents->camera_velocities = velocities;
     }
     check(scene, path);
+    make_open_volumes_thin(scene);
     if (animations.empty())
         rebase(scene);
     else

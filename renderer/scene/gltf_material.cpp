@@ -32,6 +32,9 @@ public:
         read_emission();
         read_specular();
         read_transmission();
+        read_layers();
+        m_.unlit = extension("KHR_materials_unlit") != nullptr;
+        if (const auto* old = extension("KHR_materials_pbrSpecularGlossiness")) read_specular_glossiness(old);
         return m_;
     }
 
@@ -66,10 +69,7 @@ private:
         const auto* specular = extension("KHR_materials_specular");
         m_.specular = in_range("specularFactor", number(find(specular, "specularFactor"), 1), 0, 1);
         m_.specular_texture = slots_.read(specular, "specularTexture");
-        const Rgb tint = color(find(specular, "specularColorFactor"), Rgb(1));
-        m_.specular_color = {in_range("specularColorFactor", tint.r, 0, 1e6),
-                             in_range("specularColorFactor", tint.g, 0, 1e6),
-                             in_range("specularColorFactor", tint.b, 0, 1e6)};
+        m_.specular_color = in_range("specularColorFactor", color(find(specular, "specularColorFactor"), Rgb(1)), 1e6);
         m_.specular_color_texture = slots_.read(specular, "specularColorTexture");
         const double ior = number(find(extension("KHR_materials_ior"), "ior"), 1.5);
         // 0 stands for a surface that reflects everything (KHR_materials_ior, for converted older materials).
@@ -80,8 +80,47 @@ private:
         const auto* transmission = extension("KHR_materials_transmission");
         m_.transmission = in_range("transmissionFactor", number(find(transmission, "transmissionFactor"), 0), 0, 1);
         m_.transmission_texture = slots_.read(transmission, "transmissionTexture");
-        if (m_.transmission > 0 && m_.roughness > 0.1f)
-            warn("its transmission is rendered smooth, without its roughness");
+        const auto* volume = extension("KHR_materials_volume");
+        m_.thickness = in_range("thicknessFactor", number(find(volume, "thicknessFactor"), 0), 0, 1e9);
+        m_.attenuation_color = in_range("attenuationColor", color(find(volume, "attenuationColor"), Rgb(1)), 1);
+        if (const auto* distance = find(volume, "attenuationDistance"))
+            m_.attenuation_distance = in_range("attenuationDistance", number(distance, 1e9), 1e-9, 1e9);
+    }
+
+    void read_layers() {
+        const auto* coat = extension("KHR_materials_clearcoat");
+        m_.clearcoat = in_range("clearcoatFactor", number(find(coat, "clearcoatFactor"), 0), 0, 1);
+        m_.clearcoat_texture = slots_.read(coat, "clearcoatTexture");
+        m_.clearcoat_roughness =
+            in_range("clearcoatRoughnessFactor", number(find(coat, "clearcoatRoughnessFactor"), 0), 0, 1);
+        m_.clearcoat_roughness_texture = slots_.read(coat, "clearcoatRoughnessTexture");
+        m_.clearcoat_normal_texture = slots_.read(coat, "clearcoatNormalTexture");
+        m_.clearcoat_normal_scale = float(number(find(find(coat, "clearcoatNormalTexture"), "scale"), 1));
+        const auto* sheen = extension("KHR_materials_sheen");
+        m_.sheen_color = in_range("sheenColorFactor", color(find(sheen, "sheenColorFactor"), Rgb(0)), 1);
+        m_.sheen_color_texture = slots_.read(sheen, "sheenColorTexture");
+        m_.sheen_roughness = in_range("sheenRoughnessFactor", number(find(sheen, "sheenRoughnessFactor"), 0), 0, 1);
+        m_.sheen_roughness_texture = slots_.read(sheen, "sheenRoughnessTexture");
+    }
+
+    /// The older workflow is a dielectric whose reflectance is given as a colour, which an infinite index of refraction
+    /// times a specular colour says exactly; glossiness is what roughness lacks to 1.
+    void read_specular_glossiness(const tinygltf::Value* old) {
+        warn("KHR_materials_pbrSpecularGlossiness is converted to a dielectric with coloured reflection");
+        m_.base_color = color(find(old, "diffuseFactor"), Rgb(1));
+        m_.alpha = in_range("alpha", number(find(old, "diffuseFactor"), 3, 1), 0, 1);
+        m_.base_color_texture = slots_.read(old, "diffuseTexture");
+        m_.metallic = 0, m_.ior = float(max_ior), m_.specular = 1;
+        m_.specular_color = in_range("specularFactor", color(find(old, "specularFactor"), Rgb(1)), 1);
+        const float glossiness = in_range("glossinessFactor", number(find(old, "glossinessFactor"), 1), 0, 1);
+        m_.roughness = 1 - glossiness;
+        m_.metallic_roughness_texture = {};
+        m_.specular_color_texture = slots_.read(old, "specularGlossinessTexture");
+        if (!m_.specular_color_texture.used()) return;
+        m_.metallic_roughness_texture = m_.specular_color_texture;
+        m_.metallic_roughness_texture.texture =
+            add_roughness_of_glossiness(scene_, m_.specular_color_texture.texture, glossiness);
+        m_.roughness = 1;
     }
 
     const tinygltf::Value* extension(const char* name) const { return find(source_.extensions, name); }
@@ -94,6 +133,10 @@ private:
             warn(fmt::format("its {} is out of range (got {}, expected {} to {}), {} is taken instead", name, value,
                              lower, upper, inside));
         return float(inside);
+    }
+    Rgb in_range(const char* name, Rgb value, double upper) {
+        return {in_range(name, value.r, 0, upper), in_range(name, value.g, 0, upper),
+                in_range(name, value.b, 0, upper)};
     }
     float emission(double luminance) {
         return in_range("emission", luminance, 0, 1e12);  // cd/m2; the sun has 1.6e9

@@ -21,10 +21,23 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array supported_extensions = {
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",     "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_specular",  "KHR_materials_transmission",
-    "KHR_mesh_quantization",      "KHR_texture_transform",   "MSFT_texture_dds",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_clearcoat",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "MSFT_texture_dds",
 };
 
 // Each entry of these becomes a struct of up to some kilobytes, whatever its length in the file.

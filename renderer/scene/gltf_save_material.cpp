@@ -5,6 +5,7 @@
 #include "renderer/scene/gltf_lamp.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pluvia {
 namespace {
@@ -67,6 +68,28 @@ private:
         if (m_.transmission != standard.transmission)
             add("KHR_materials_transmission", "transmissionFactor", m_.transmission);
         add("KHR_materials_transmission", "transmissionTexture", m_.transmission_texture);
+        if (m_.thickness > 0) {
+            const std::string volume = "KHR_materials_volume";
+            add(volume, "thicknessFactor", m_.thickness);
+            add(volume, "attenuationColor", array(m_.attenuation_color));
+            if (std::isfinite(m_.attenuation_distance)) add(volume, "attenuationDistance", m_.attenuation_distance);
+        }
+        if (m_.clearcoat > 0) {
+            const std::string coat = "KHR_materials_clearcoat";
+            add(coat, "clearcoatFactor", m_.clearcoat);
+            add(coat, "clearcoatRoughnessFactor", m_.clearcoat_roughness);
+            add(coat, "clearcoatTexture", m_.clearcoat_texture);
+            add(coat, "clearcoatRoughnessTexture", m_.clearcoat_roughness_texture);
+            add(coat, "clearcoatNormalTexture", m_.clearcoat_normal_texture, m_.clearcoat_normal_scale);
+        }
+        if (!is_black(m_.sheen_color)) {
+            const std::string sheen = "KHR_materials_sheen";
+            add(sheen, "sheenColorFactor", array(m_.sheen_color));
+            add(sheen, "sheenRoughnessFactor", m_.sheen_roughness);
+            add(sheen, "sheenColorTexture", m_.sheen_color_texture);
+            add(sheen, "sheenRoughnessTexture", m_.sheen_roughness_texture);
+        }
+        if (m_.unlit) extensions_["KHR_materials_unlit"];
     }
 
     void add(const std::string& extension, const std::string& key, Value value) {
@@ -75,10 +98,11 @@ private:
     void add(const std::string& extension, const std::string& key, float value) {
         add(extension, key, Value(double(value)));
     }
-    void add(const std::string& extension, const std::string& key, const TextureSlot& slot) {
+    void add(const std::string& extension, const std::string& key, const TextureSlot& slot, float scale = 1) {
         if (!slot.used()) return;
         Object info = {{"index", Value(slot.texture)}, {"texCoord", Value(slot.uv_set)}};
         if (slot.has_transform) info["extensions"] = Value(Object{{"KHR_texture_transform", transform(slot)}});
+        if (scale != 1) info["scale"] = Value(double(scale));
         add(extension, key, Value(info));
     }
 

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace pluvia {
 namespace {
 
@@ -70,6 +72,16 @@ void read_textures(const tinygltf::Model& model, const std::string& where, Scene
         scene.images[i] = needed ? read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name))
                                  : Image<Rgba8>(1, 1);
     });
+}
+
+int add_roughness_of_glossiness(Scene& scene, int texture, float glossiness) {
+    Texture rough = scene.textures[texture];
+    Image<Rgba8> image = scene.images[rough.image];
+    for (Rgba8& p : image.pixels) p = {0, uint8_t(std::lround(255 - glossiness * float(p.a))), 0, 255};
+    rough.image = int(scene.images.size());
+    scene.images.push_back(std::move(image));
+    scene.textures.push_back(rough);
+    return int(scene.textures.size()) - 1;
 }
 
 TextureSlot SlotReader::read(int texture, int uv_set, const tinygltf::Value* transform, const char* name) const {

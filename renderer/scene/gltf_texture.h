@@ -32,4 +32,7 @@ private:
     TextureSlot read(int texture, int uv_set, const tinygltf::Value* transform, const char* name) const;
 };
 
+/// Adds a texture whose green is 1 - glossiness times the alpha of another, and returns its index.
+int add_roughness_of_glossiness(Scene& scene, int texture, float glossiness);
+
 }  // namespace pluvia

@@ -5,6 +5,7 @@
 #include "renderer/core/rgb.h"
 #include "renderer/core/vec.h"
 
+#include <limits>
 #include <string>
 
 namespace pluvia {
@@ -63,22 +64,36 @@ struct Material {
     float specular = 1;                 // scales the reflectance of the dielectric at all angles
     Rgb specular_color = Rgb(1);        // scales it at normal incidence; 0 or more, the reflectance stays below 1
     float ior = 1.5f;
-    float transmission = 0;               // share of light that passes a thin sheet instead of meeting the diffuse lobe
-    Rgb emission;                         // cd/m2: emissive factor times strength
-    TextureSlot base_color_texture = {};  // sRGB, alpha linear
-    TextureSlot metallic_roughness_texture = {};  // linear: roughness in g, metallic in b
-    TextureSlot normal_texture = {};              // linear, tangent space
-    TextureSlot emission_texture = {};            // sRGB
-    TextureSlot specular_texture = {};            // linear, in alpha
-    TextureSlot specular_color_texture = {};      // sRGB
-    TextureSlot transmission_texture = {};        // linear, in r
-    float normal_scale = 1;
+    float transmission = 0;          // share of light that passes or enters instead of meeting the diffuse lobe
+    float thickness = 0;             // metres; 0: a thin sheet, above: a closed body, as thick as its mesh is
+    Rgb attenuation_color = Rgb(1);  // what of white light is left in that body after attenuation_distance metres
+    float attenuation_distance = std::numeric_limits<float>::infinity();
+    float clearcoat = 0, clearcoat_roughness = 0;
+    Rgb sheen_color = Rgb(0);
+    float sheen_roughness = 0;
+    bool unlit = false;                            // shows base_color times Scene::unlit_luminance and reflects nothing
+    Rgb emission;                                  // cd/m2: emissive factor times strength
+    TextureSlot base_color_texture = {};           // sRGB, alpha linear
+    TextureSlot metallic_roughness_texture = {};   // linear: roughness in g, metallic in b
+    TextureSlot normal_texture = {};               // linear, tangent space
+    TextureSlot emission_texture = {};             // sRGB
+    TextureSlot specular_texture = {};             // linear, in alpha
+    TextureSlot specular_color_texture = {};       // sRGB
+    TextureSlot transmission_texture = {};         // linear, in r
+    TextureSlot clearcoat_texture = {};            // linear, in r
+    TextureSlot clearcoat_roughness_texture = {};  // linear, in g
+    TextureSlot clearcoat_normal_texture = {};     // as normal_texture, which does not move the coat
+    TextureSlot sheen_color_texture = {};          // sRGB
+    TextureSlot sheen_roughness_texture = {};      // linear, in alpha
+    float normal_scale = 1, clearcoat_normal_scale = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;  // decides whether the back emits; seen and lit are all surfaces from both sides
     bool lamp = false;          // its emission can be switched: see lamps.h
 
     bool emits() const { return !is_black(emission); }
+    bool has_volume() const { return transmission > 0 && thickness > 0; }
+    bool is_layered() const { return clearcoat > 0 || !is_black(sheen_color); }
 
     /// Calls visit(slot, name in glTF) for each texture slot of a material.
     template <class M, class Visit>
@@ -90,6 +105,11 @@ struct Material {
         visit(m.specular_texture, "specularTexture");
         visit(m.specular_color_texture, "specularColorTexture");
         visit(m.transmission_texture, "transmissionTexture");
+        visit(m.clearcoat_texture, "clearcoatTexture");
+        visit(m.clearcoat_roughness_texture, "clearcoatRoughnessTexture");
+        visit(m.clearcoat_normal_texture, "clearcoatNormalTexture");
+        visit(m.sheen_color_texture, "sheenColorTexture");
+        visit(m.sheen_roughness_texture, "sheenRoughnessTexture");
     }
 };
 

@@ -72,6 +72,7 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<PunctualLight> lights;
     std::vector<Camera> cameras;
+    float unlit_luminance = 100;        // cd/m2 of white unlit surfaces, which are meant to be shown as they are
     std::vector<std::string> warnings;  // what the file asks for and is rendered without, by name
 };
 

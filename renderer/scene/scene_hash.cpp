@@ -41,7 +41,9 @@ public:
     void add(const Material& m) {
         add(m.base_color), add(m.alpha), add(m.metallic), add(m.roughness), add(m.specular), add(m.specular_color);
         add(m.ior), add(m.transmission), add(m.emission), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
-        add(m.double_sided), add(m.lamp);
+        add(m.double_sided), add(m.lamp), add(m.thickness), add(m.attenuation_color), add(m.attenuation_distance);
+        add(m.clearcoat), add(m.clearcoat_roughness), add(m.clearcoat_normal_scale), add(m.sheen_color);
+        add(m.sheen_roughness), add(m.unlit);
         Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) { add(slot); });
     }
     void add(const Mesh& m) {
@@ -63,7 +65,7 @@ private:
 
 uint64_t content_hash(const Scene& scene) {
     ContentHash hash;
-    hash.add(scene.origin);
+    hash.add(scene.origin), hash.add(scene.unlit_luminance);
     hash.add(scene.images), hash.add(scene.textures), hash.add(scene.materials), hash.add(scene.meshes);
     hash.add(scene.instances), hash.add(scene.lights);
     return hash.value();

@@ -15,10 +15,13 @@ struct SurfacePoint {
 
 struct Surface {
     Vec3 position;
-    Vec3 geometric_normal;  // unit, on the side that the ray came from
-    Vec3 shading_normal;    // unit, interpolated and normal-mapped, turned so that the ray's side sees it
-    Rgb emission;           // cd/m2 towards the ray
-    Bsdf bsdf;              // in the frame of ShadingBasis(shading_normal)
+    Vec3 geometric_normal;   // unit, on the side that the ray came from
+    Vec3 shading_normal;     // unit, interpolated and normal-mapped, turned so that the ray's side sees it
+    Rgb emission;            // cd/m2 towards the ray
+    Bsdf bsdf;               // in the frame of ShadingBasis(shading_normal); glass as if air were around it
+    bool from_front = true;  // whether the triangle's front is seen
+    int volume = -1;         // material of the body whose surface this is, -1 = none; the body is behind the front
+    int before = -1, behind = -1;  // materials of the bodies on the ray's side and beyond, -1 = air: set by the path
 };
 
 /// direction: of the ray that arrives, unit. u: uniform number that chooses between the sheets of which a partly

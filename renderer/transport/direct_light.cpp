@@ -1,5 +1,7 @@
 #include "renderer/transport/direct_light.h"
 
+#include "renderer/transport/media.h"
+
 #include <optional>
 
 namespace pluvia {
@@ -15,6 +17,10 @@ Vec2 shifted(Vec2 u, int i) {
     return {wrap(u.x + float(i) * 0.754877666f), wrap(u.y + float(i) * 0.569840291f)};
 }
 
+bool is_above(const Surface& surface, Vec3 wi) {
+    return dot(wi, surface.geometric_normal) > 0;
+}
+
 /// Of all samples drawn so far one, kept with a probability in proportion to what it would bring if it were visible.
 class Pick {
 public:
@@ -22,11 +28,16 @@ public:
 
     /// count: samples drawn of this kind.
     void add(const Vertex& v, const LightSample& light, int count) {
-        if (is_black(light.radiance) || dot(light.wi, v.surface.geometric_normal) <= 0) return;
-        const BsdfValue value = evaluate(v.bsdf, v.basis.to_local(light.wi));
+        const bool above = is_above(v.surface, light.wi);
+        if (is_black(light.radiance) || (!above && !is_translucent(v.bsdf))) return;
+        const Vec3 wi = v.basis.to_local(light.wi);
+        if ((wi.z > 0) != above) return;  // as for the directions that a path samples
+        const BsdfValue value = evaluate(v.bsdf, wi);
         const float expected = float(count) * light.pdf;
         const float mis = light.delta ? 1.0f : power_heuristic(expected, value.pdf);
-        const Rgb contribution = value.f_cos * light.radiance * (mis / expected);
+        Rgb contribution = value.f_cos * light.radiance * (mis / expected);
+        if (const int medium = above ? v.surface.before : v.surface.behind; medium >= 0)
+            contribution *= transmittance(v.scene, medium, light.distance) * basic_radiance(v.scene, medium);
         const float weight = luminance(contribution);
         if (!(weight > 0)) return;
         total_ += weight;
@@ -51,7 +62,8 @@ private:
 
 Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, Draw draw, Counters& counters) {
     if (!pick.light()) return Rgb(0);
-    const Vec3 from = offset_from_surface(v.surface.position, v.surface.geometric_normal);
+    const Vec3 n = v.surface.geometric_normal;
+    const Vec3 from = offset_from_surface(v.surface.position, is_above(v.surface, pick.light()->wi) ? n : -n);
     const OpacityTest opacity{v.sampler.key(draw, uint32_t(v.bounce))};
     return is_visible(ray_scene, from, *pick.light(), opacity, counters) ? pick.estimate() : Rgb(0);
 }
@@ -73,7 +85,7 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
     const Vec2 choice = v.u.get_2d(Draw::light_choice), pick_u = v.u.get_2d(Draw::light_pick);
     if (lights.has_local()) {
         counters.count(Feature::local_light);
-        const Receiver receiver{v.surface.position, v.surface.shading_normal};
+        const Receiver receiver = receiver_at(v.surface, v.bsdf);
         Pick pick(pick_u.x);
         for (int i = 0; i < local_light_samples; ++i)
             if (const auto light = lights.sample_local(receiver, stratified(choice.x, i, local_light_samples),

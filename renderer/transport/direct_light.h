@@ -25,8 +25,14 @@ struct RayOrigin {
     float weight_of_distant(float light_pdf) const { return power_heuristic(pdf, float(distant_samples) * light_pdf); }
 };
 
+/// For what lights are chosen: those below the horizon, too, where they shine through.
+inline Receiver receiver_at(const Surface& surface, const PreparedBsdf& bsdf) {
+    return {surface.position, is_translucent(bsdf) ? Vec3() : surface.shading_normal};
+}
+
 /// A scattering vertex of a path.
 struct Vertex {
+    const Scene& scene;
     const Surface& surface;
     const PreparedBsdf& bsdf;
     const ShadingBasis& basis;

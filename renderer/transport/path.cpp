@@ -1,6 +1,7 @@
 #include "renderer/transport/path.h"
 
 #include "renderer/core/sampling.h"
+#include "renderer/transport/media.h"
 
 namespace pluvia {
 namespace {
@@ -14,7 +15,8 @@ constexpr float max_survival = 0.95f;  // below 1, so that a closed white room c
 PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
                              float importance) const {
     PathResult result;
-    Rgb throughput(1);
+    Rgb throughput(1);  // of basic radiance: see shaders/glass.h
+    Media media;
     const int first_bounce = bounce;
     for (;; ++bounce) {
         RayHit hit;
@@ -28,7 +30,13 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (bounce == first_bounce) result.distance = hit.distance;
         const VertexNumbers u = sampler.vertex(bounce);
         const Vec2 lobe = u.get_2d(Draw::lobe);
-        const Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, lobe.y, counters);
+        Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, lobe.y, counters);
+        if (surface.volume >= 0 || !media.empty()) {
+            counters.count(Feature::volume);
+            find_sides(*scene_, media, surface);
+            throughput *= transmittance(*scene_, surface.before, hit.distance);
+            surface.emission *= basic_radiance(*scene_, surface.before);
+        }
         if (!is_black(surface.emission)) {
             const float mis =
                 origin.pdf > 0 ? origin.weight_of_local(lights_->pdf_local(origin.receiver, hit.point)) : 1.0f;
@@ -39,8 +47,8 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const ShadingBasis basis(surface.shading_normal);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
-            result.radiance +=
-                throughput * direct_light(*ray_scene_, *lights_, {surface, bsdf, basis, sampler, u, bounce}, counters);
+            result.radiance += throughput * direct_light(*ray_scene_, *lights_,
+                                                         {*scene_, surface, bsdf, basis, sampler, u, bounce}, counters);
 
         const auto next = sample(bsdf, lobe.x, u.get_2d(Draw::bsdf));
         if (!next) return result;
@@ -54,10 +62,14 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }
-        origin = {next->delta ? 0.0f : next->pdf,
-                  {surface.position, surface.shading_normal},
-                  local_light_samples,
+        origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples,
                   distant_light_samples};
+        if (next->transmitted && surface.volume >= 0) {
+            if (surface.from_front)
+                media.enter(surface.volume);
+            else
+                media.leave(surface.volume);
+        }
         const Vec3 side = next->transmitted ? -surface.geometric_normal : surface.geometric_normal;
         ray = {offset_from_surface(surface.position, side), wi};
     }

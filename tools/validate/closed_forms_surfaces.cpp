@@ -58,7 +58,7 @@ std::vector<ClosedFormResult> measure_furnaces(uint64_t seed) {
         furnace(fmt::format("plastic of roughness {}", roughness), plastic, tables);
     }
     Material pane = diffuse, veil = diffuse;
-    pane.transmission = 1;
+    pane.transmission = 1, pane.roughness = 0;
     veil.alpha_mode = AlphaMode::blend, veil.alpha = 0.5f;
     furnace("clear panes", pane, rounding);
     furnace("half transparent walls", veil, rounding);
@@ -106,7 +106,7 @@ std::vector<ClosedFormResult> measure_albedos(uint64_t seed) {
 std::vector<ClosedFormResult> measure_panes(uint64_t seed) {
     std::vector<ClosedFormResult> results;
     Material glass = lambert(Rgb(1));
-    glass.transmission = 1;
+    glass.transmission = 1, glass.roughness = 0;
     for (const double degrees : {0.0, 60.0}) {
         Scene scene;
         add_quad(scene, {-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, glass);
