@@ -44,7 +44,8 @@ Scene scene_of_everything() {
     m.alpha_mode = AlphaMode::mask, m.alpha_cutoff = 0.3f;
     m.double_sided = true;
     scene.materials = {m, Material{.name = "plain", .emission = Rgb(0.25f), .alpha_mode = AlphaMode::blend}};
-    Material body{.name = "body", .transmission = 1};  // of no mesh: the triangle below has edges
+    Material body;  // of no mesh: the triangle below has edges
+    body.name = "body", body.transmission = 1;
     body.thickness = 0.25f, body.attenuation_color = {0.5f, 0.75f, 1}, body.attenuation_distance = 2;
     scene.materials.push_back(body);
     Mesh mesh;

@@ -22,19 +22,6 @@ Scene plane_scene() {
 }
 const View point_view = look_at({4, 1.5, 3}, {0, 0, 0}, 4, 4, tiny_pixel);
 
-void check_radiance(const Scene& scene, const Environment& environment, double expected, int samples,
-                    double rounding = 2e-5) {
-    RenderSettings settings;
-    settings.samples = samples;
-    const Estimate e = estimate(scene, environment, point_view, settings, "background.G", 16);
-    CAPTURE(e.mean);
-    CAPTURE(e.standard_error);
-    CAPTURE(expected);
-    // Rounding: of positions and directions in single precision.
-    CHECK(std::abs(e.mean - expected) < 5 * e.standard_error + rounding * expected);
-    CHECK(e.standard_error < 1e-3 * expected);  // else the test could not see an error
-}
-
 }  // namespace
 
 TEST_CASE("a spot light does not shine outside its outer cone") {
