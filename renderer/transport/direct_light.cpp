@@ -2,6 +2,7 @@
 
 #include "renderer/transport/media.h"
 
+#include <cmath>
 #include <optional>
 
 namespace pluvia {
@@ -65,7 +66,15 @@ Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, D
     const Vec3 n = v.surface.geometric_normal;
     const Vec3 from = offset_from_surface(v.surface.position, is_above(v.surface, pick.light()->wi) ? n : -n);
     const OpacityTest opacity{v.sampler.key(draw, uint32_t(v.bounce))};
-    return is_visible(ray_scene, from, *pick.light(), opacity, counters) ? pick.estimate() : Rgb(0);
+    // Aimed anew from where the ray starts: a ray that keeps its direction while its origin moves off the surface meets
+    // a triangle seen edge-on so much earlier that the triangle would shade itself.
+    LightSample light = *pick.light();
+    if (std::isfinite(light.distance)) {
+        const Vec3 to_light = v.surface.position + light.wi * light.distance - from;
+        light.distance = length(to_light);
+        light.wi = to_light / light.distance;
+    }
+    return is_visible(ray_scene, from, light, opacity, counters) ? pick.estimate() : Rgb(0);
 }
 
 /// Choice i of a few, stratified.

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <vector>
 
 namespace pluvia {
 namespace {
@@ -32,13 +34,34 @@ Scene ground_scene() {
 
 /// Irradiance at the origin of a plane that faces n from a polygon of radiance 1 that lies above it wholly.
 /// Source: Lambert 1760, Photometria; Arvo 1995.
-double polygon_irradiance(const std::array<Vec3d, 4>& corners, Vec3d n) {
+double polygon_irradiance(std::span<const Vec3d> corners, Vec3d n) {
     double sum = 0;
     for (size_t i = 0; i < corners.size(); ++i) {
         const Vec3d a = normalize(corners[i]), b = normalize(corners[(i + 1) % corners.size()]);
         sum += std::acos(dot(a, b)) * dot(normalize(cross(a, b)), n);
     }
     return std::abs(sum) / 2;
+}
+
+/// A ball of few facets, those at its rim seen at an angle of 0.01 rad: they bring 0.35 % of its light.
+ClosedFormResult edge_on_facets(uint64_t seed) {
+    constexpr int segments = 64;
+    constexpr double height = 2, pi_d = std::numbers::pi;
+    Scene scene = ground_scene();
+    add_sphere(scene, {0, float(height), 0}, 1, segments, emitter(Rgb(10)));
+    // Its outline is the ring of corners that is seen farthest from the axis.
+    std::vector<Vec3d> outline;
+    double widest = 0;
+    for (int ring = 0; ring <= segments / 2; ++ring) {
+        const double polar = 2 * pi_d * ring / segments, x = std::sin(polar), y = height + std::cos(polar);
+        if (x / y <= widest) continue;
+        widest = x / y;
+        outline.clear();
+        for (int k = 0; k < segments; ++k)
+            outline.push_back({x * std::cos(2 * pi_d * k / segments), y, x * std::sin(2 * pi_d * k / segments)});
+    }
+    return ground("ball of 64 x 32 facets, 2 m above: Lambert's formula of its outline",
+                  albedo / pi_d * 10 * polygon_irradiance(outline, {0, 1, 0}), scene, Environment(), 1024, seed);
 }
 
 }  // namespace
@@ -88,6 +111,7 @@ std::vector<ClosedFormResult> measure_area_lights(uint64_t seed) {
             fmt::format("sphere light of radius 1 m and 10 cd/m2, centre {} m above: albedo L (r / d)^2", height),
             albedo * 10 / (height * height) * outline, scene, Environment(), 1024, seed));
     }
+    results.push_back(edge_on_facets(seed));
     struct Rectangle {
         const char* name;
         Vec3 corner, u, v;
