@@ -190,6 +190,7 @@ void read_into(const tinygltf::Model& model, int accessor, int components, const
     if (e.components != components)
         throw input_error(where, fmt::format("accessor {} has the wrong type (got {} components, expected {})",
                                              accessor, e.components, components));
+    if (e.row.count == 0) return;  // out may be null then
     const size_t n = size_t(components);
     const bool is_plain = e.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT && e.row.stride == n * sizeof(float);
     if (!e.row.first)
