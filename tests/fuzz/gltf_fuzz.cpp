@@ -1,7 +1,8 @@
 // libFuzzer target of the glTF reader: whatever the bytes, a scene or a refusal with exit code 3, nothing else.
 // OpenImageIO 2.4 loses some bytes with each damaged PNG, so leaks are not looked for.
 //   CXX=clang++-14 cmake -S . -B build-fuzz -G Ninja -DPLUVIA_FUZZ=ON && cmake --build build-fuzz --target gltf_fuzz
-//   build-fuzz/tests/fuzz/gltf_fuzz -detect_leaks=0 -dict=tests/fuzz/gltf.dict -max_len=4096 -runs=1000000 FOLDER tests/fuzz/gltf
+//   ASAN_OPTIONS=detect_leaks=0 build-fuzz/tests/fuzz/gltf_fuzz -dict=tests/fuzz/gltf.dict -max_len=4096
+//     -runs=1000000 FOLDER tests/fuzz/gltf
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
 
