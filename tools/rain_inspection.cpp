@@ -41,9 +41,7 @@ int64_t count_in_picture(const std::vector<Streak>& streaks, const View& view) {
 
 /// Enough digits to compare, few enough to read.
 double rounded(double value) {
-    if (value == 0 || !std::isfinite(value)) return value;
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4);
-    return std::round(value / unit) * unit;
+    return std::isfinite(value) ? std::stod(fmt::format("{:.4e}", value)) : value;
 }
 
 }  // namespace
