@@ -12,7 +12,7 @@
 namespace pluvia {
 
 /// Light samples of each kind that compete at a vertex for one shadow ray.
-constexpr int local_light_samples = 8, distant_light_samples = 2;
+constexpr int local_light_samples = 8, distant_light_samples = 1;
 
 /// Where light samples were drawn, as far as the weight of a ray that left there needs it.
 struct RayOrigin {
