@@ -37,6 +37,11 @@ inline bool is_translucent(const PreparedBsdf& bsdf) {
     return std::holds_alternative<PreparedFrostedPane>(bsdf) || std::holds_alternative<PreparedGlass>(bsdf);
 }
 
+/// True where light that is let through goes straight on, so that light samples see through.
+inline bool lets_straight_through(const Bsdf& bsdf) {
+    return std::holds_alternative<Pane>(bsdf);
+}
+
 /// Computes what depends on wo alone.
 inline PreparedBsdf prepare(const Bsdf& bsdf, Vec3 wo) {
     return std::visit([&](const auto& model) -> PreparedBsdf { return prepare(model, wo); }, bsdf);

@@ -1,8 +1,8 @@
 // EXR files: every bit comes back, bytes do not depend on threads, half a file never looks like a whole one.
 // Pictures in other formats are in image_test.cpp.
+#include "renderer/image/exr.h"
 #include "renderer/core/error.h"
 #include "renderer/core/random.h"
-#include "renderer/image/exr.h"
 
 #include <doctest/doctest.h>
 
@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <optional>
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -49,7 +50,9 @@ Error error_of(Body body) {
     }
     return {ExitCode::ok, "", "no error"};
 }
-bool names(const Error& error, const std::string& path) { return std::string(error.what()).starts_with(path + ": "); }
+bool names(const Error& error, const std::string& path) {
+    return std::string(error.what()).starts_with(path + ": ");
+}
 
 /// Two value channels and one of ids, named out of alphabetical order as callers may.
 const std::vector<ExrChannel> channels = {{"rain_050.R"}, {"instance.ID", true}, {"Z"}};
@@ -146,6 +149,25 @@ TEST_CASE("attributes come back as they were given") {
         REQUIRE(back.contains(name));
         CHECK(bool(back.at(name) == value));
     }
+}
+
+TEST_CASE("an attribute known after the rows stands in the header all the same") {
+    const Folder folder;
+    const Picture picture(64, 48);
+    const auto write_late = [&](const std::string& path, float first, std::optional<float> late) {
+        ExrWriter writer(path, 64, 48, channels, {{"pluvia/ev", first}, {"pluvia/seed", 7}});
+        writer.write_rows(0, 32, picture.rows(0));
+        if (late) writer.set_attribute("pluvia/ev", *late);
+        writer.write_rows(32, 16, picture.rows(32));
+        writer.finish();
+    };
+    write_late(folder / "late.exr", 0, -11.25f);
+    write_late(folder / "early.exr", -11.25f, std::nullopt);
+    CHECK(std::get<float>(ExrReader(folder / "late.exr").attributes().at("pluvia/ev")) == -11.25f);
+    CHECK(read_text(folder / "late.exr") == read_text(folder / "early.exr"));
+
+    ExrWriter writer(folder / "none.exr", 64, 48, channels, {{"pluvia/seed", 7}});
+    CHECK(error_of([&] { writer.set_attribute("pluvia/ev", 1); }).code() == ExitCode::render_failed);
 }
 
 TEST_CASE("an EXR that is not finished leaves nothing behind") {

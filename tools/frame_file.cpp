@@ -4,8 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 namespace pluvia {
 namespace {
+
+constexpr auto exposure_attribute = "pluvia:exposure_ev100";
 
 std::vector<ExrChannel> exr_channels(const std::vector<double>& intensities) {
     std::vector<ExrChannel> channels;
@@ -60,6 +64,7 @@ ExrAttributes exr_attributes(const FrameHeader& h) {
             {"pluvia:intensities_mm_per_h", std::vector<float>(h.intensities.begin(), h.intensities.end())},
             {"pluvia:camera_velocity", floats(h.view.velocity)},
             {"pluvia:shutter_open", h.view.shutter_open},
+            {exposure_attribute, std::numeric_limits<float>::quiet_NaN()},
             {"expTime", h.view.exposure_time},
             {"worldToCamera", to_camera},
             {"worldToNDC", multiply(to_camera, camera_to_ndc(h.view))}};
@@ -74,6 +79,11 @@ void FrameWriter::write(const Band& band) {
     writer_.write_rows(band.y, band.rows, rows);
     for (size_t i = 0; i < band.planes[0].size(); ++i)
         histogram_.add({band.planes[0][i], band.planes[1][i], band.planes[2][i]});
+}
+
+void FrameWriter::finish(double ev100) {
+    writer_.set_attribute(exposure_attribute, float(ev100));
+    writer_.finish();
 }
 
 std::string json_text(const nlohmann::ordered_json& json, int indent) {

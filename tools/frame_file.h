@@ -19,7 +19,7 @@ struct FrameHeader {
     std::vector<double> intensities;
 };
 
-/// Header entries of frame.exr: version, scene, settings, camera matrices, units.
+/// Header entries of frame.exr: version, scene, settings, camera matrices, units; the exposure is not known yet (NaN).
 ExrAttributes exr_attributes(const FrameHeader& header);
 
 /// Writes bands of layers to an EXR file and meters the background on the way.
@@ -27,7 +27,8 @@ class FrameWriter {
 public:
     FrameWriter(const std::string& path, const FrameHeader& header);
     void write(const Band& band);
-    void finish() { writer_.finish(); }
+    /// ev100: the exposure that the pictures beside the file have, for its header.
+    void finish(double ev100);
     const LuminanceHistogram& background_luminance() const { return histogram_; }
 
 private:

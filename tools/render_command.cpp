@@ -108,9 +108,9 @@ void render_command(const RenderOptions& options) {
             scene, environment, header.view, settings, [&](const Band& band) { writer.write(band); },
             [&](double done) { return progress.update(done); });
     }
-    writer.finish();
-
     display.ev100 = exposure ? *exposure : writer.background_luminance().auto_ev100();
+    writer.finish(display.ev100);
+
     display.text = {{"Software", std::string("Pluvia ") + PLUVIA_VERSION},
                     {"pluvia:settings", json_text(header.options)},
                     {"pluvia:exposure_ev100", fmt::format("{}", display.ev100)}};

@@ -35,30 +35,43 @@ struct QueryContext : RTCIntersectContext {
     OpacityTest opacity;
     Counters* counters;
     const std::vector<int>* instance_of_geometry;
+    bool passes_panes = false, met_pane = false;
 };
 
 int instance_of_hit(const std::vector<int>& instance_of_geometry, unsigned geometry, unsigned embree_instance) {
     return instance_of_geometry[embree_instance == RTC_INVALID_GEOMETRY_ID ? geometry : embree_instance];
 }
 
-/// Called for every candidate hit on a mesh that may be transparent; rejects it where the ray passes.
+const Material& material_of(const Scene& scene, int instance) {
+    return scene.materials[scene.meshes[scene.instances[instance].mesh].material];
+}
+
+bool passes_by_opacity(const Scene& scene, const SurfacePoint& point, const OpacityTest& test, Counters& counters) {
+    counters.count(Feature::alpha);
+    const float alpha = opacity(scene, point);
+    // alpha 0 always passes and alpha 1 never does, whatever the hash.
+    return test.at_half ? alpha < 0.5f
+                        : alpha <= unit_float(hash_key(test.key, uint64_t(point.instance), uint64_t(point.triangle)));
+}
+
+/// Called for every candidate hit on a mesh that may be transparent or a pane; rejects it where the ray passes.
 void reject_transparent(const RTCFilterFunctionNArguments* args) {
     if (args->valid[0] == 0) return;
-    const auto& context = *static_cast<const QueryContext*>(args->context);
+    auto& context = *static_cast<QueryContext*>(args->context);
     const auto& tag = *static_cast<const GeometryTag*>(args->geometryUserPtr);
     RTCHitN* hit = args->hit;
     const int instance =
         tag.instance >= 0 ? tag.instance : (*context.instance_of_geometry)[RTCHitN_instID(hit, args->N, 0, 0)];
     const SurfacePoint point{instance, int(RTCHitN_primID(hit, args->N, 0)), RTCHitN_u(hit, args->N, 0),
                              RTCHitN_v(hit, args->N, 0)};
-    context.counters->count(Feature::alpha);
-    const float alpha = opacity(*tag.scene, point);
-    const float threshold =
-        context.opacity.at_half
-            ? 0.5f
-            : unit_float(hash_key(context.opacity.key, uint64_t(point.instance), uint64_t(point.triangle)));
-    // alpha 0 always passes and alpha 1 never does, whatever the hash.
-    if (context.opacity.at_half ? alpha < threshold : alpha <= threshold) args->valid[0] = 0;
+    const Material& material = material_of(*tag.scene, instance);
+    if (material.alpha_mode != AlphaMode::opaque &&
+        passes_by_opacity(*tag.scene, point, context.opacity, *context.counters)) {
+        args->valid[0] = 0;
+    } else if (context.passes_panes && may_let_straight_through(material)) {
+        context.met_pane = true;
+        args->valid[0] = 0;
+    }
 }
 
 std::vector<size_t> uses_of_meshes(const Scene& scene) {
@@ -136,11 +149,26 @@ struct RayScene::Embree {
         rtcSetGeometryUserData(geometry, tag);
         if (may_be_transparent(scene, mesh)) {
             rtcSetGeometryIntersectFilterFunction(geometry, reject_transparent);
-            rtcSetGeometryOccludedFilterFunction(geometry, reject_transparent);
         }
+        if (may_be_transparent(scene, mesh) || may_let_straight_through(scene.materials[mesh.material]))
+            rtcSetGeometryOccludedFilterFunction(geometry, reject_transparent);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(parent, geometry);
         rtcReleaseGeometry(geometry);
+    }
+
+    bool is_occluded(const Ray& ray, QueryContext& context) const {
+        ++context.counters->rays;
+        RTCRay query = embree_ray(ray);
+#if RTC_VERSION_MAJOR >= 4
+        RTCOccludedArguments arguments;
+        rtcInitOccludedArguments(&arguments);
+        arguments.context = &context;
+        rtcOccluded1(top, &query, &arguments);
+#else
+        rtcOccluded1(top, &context, &query);
+#endif
+        return query.tfar < 0;
     }
 
     /// Watertight, and built by one thread: how Embree splits a build among threads decides which of two coinciding
@@ -162,7 +190,7 @@ size_t held_triangles(const Scene& scene) {
     return sum;
 }
 
-RayScene::RayScene(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+RayScene::RayScene(const Scene& scene) : scene_(&scene), embree_(std::make_unique<Embree>()) {
     Embree& e = *embree_;
     e.device = rtcNewDevice(nullptr);
     if (!e.device) throw Error(ExitCode::render_failed, "Embree", "cannot start");
@@ -235,18 +263,15 @@ bool RayScene::closest_hit(const Ray& ray, OpacityTest opacity, RayHit& hit, Cou
 }
 
 bool RayScene::occluded(const Ray& ray, OpacityTest opacity, Counters& counters) const {
-    ++counters.rays;
     QueryContext context = make_context(opacity, counters, embree_->instance_of_geometry);
-    RTCRay query = embree_ray(ray);
-#if RTC_VERSION_MAJOR >= 4
-    RTCOccludedArguments arguments;
-    rtcInitOccludedArguments(&arguments);
-    arguments.context = &context;
-    rtcOccluded1(embree_->top, &query, &arguments);
-#else
-    rtcOccluded1(embree_->top, &context, &query);
-#endif
-    return query.tfar < 0;
+    return embree_->is_occluded(ray, context);
+}
+
+Obstruction RayScene::obstruction(const Ray& ray, OpacityTest opacity, Counters& counters) const {
+    QueryContext context = make_context(opacity, counters, embree_->instance_of_geometry);
+    context.passes_panes = true;
+    if (embree_->is_occluded(ray, context)) return Obstruction::full;
+    return context.met_pane ? Obstruction::panes : Obstruction::none;
 }
 
 }  // namespace pluvia

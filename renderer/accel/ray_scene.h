@@ -19,6 +19,9 @@ struct OpacityTest {
     bool at_half = false;  // instead: pass where opacity < 0.5, for depth and labels
 };
 
+/// What stands between two points: nothing, only panes that may let light straight through (surface.h), or more.
+enum class Obstruction { none, panes, full };
+
 struct RayHit {
     float distance;
     SurfacePoint point;
@@ -35,9 +38,14 @@ public:
     bool closest_hit(const Ray& ray, OpacityTest opacity, RayHit& hit, Counters& counters) const;
     /// Whether something stands between the origin and ray.t_max.
     bool occluded(const Ray& ray, OpacityTest opacity, Counters& counters) const;
+    /// The same for light, which panes may let pass.
+    Obstruction obstruction(const Ray& ray, OpacityTest opacity, Counters& counters) const;
+
+    const Scene& scene() const { return *scene_; }
 
 private:
     struct Embree;
+    const Scene* scene_;
     std::unique_ptr<Embree> embree_;
 };
 

@@ -21,6 +21,7 @@
 #include <ImfThreading.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -75,15 +76,24 @@ public:
 
     void write(const char bytes[], int count) override {
         if (!file_.write(bytes, count)) throw std::runtime_error("the disk may be full");
+        if (in_header_) header_.append(bytes, size_t(count));
     }
     uint64_t tellp() override { return uint64_t(std::streamoff(file_.tellp())); }
     void seekp(uint64_t position) override { file_.seekp(std::streamoff(position)); }
 
+    void end_header() { in_header_ = false; }
+    /// The bytes at the beginning of the file, up to end_header().
+    const std::string& header() const { return header_; }
+
 private:
     std::ofstream& file_;
+    std::string header_;
+    bool in_header_ = true;
 };
 
-Imf::PixelType pixel_type(bool is_id) { return is_id ? Imf::UINT : Imf::FLOAT; }
+Imf::PixelType pixel_type(bool is_id) {
+    return is_id ? Imf::UINT : Imf::FLOAT;
+}
 
 template <class Rows>
 bool holds_ids(const Rows& rows) {
@@ -98,9 +108,13 @@ Imf::Slice band_slice(const Rows& rows, const Imath::Box2i& band) {
 
 }  // namespace
 
-void set_exr_thread_count(int threads) { Imf::setGlobalThreadCount(threads); }
+void set_exr_thread_count(int threads) {
+    Imf::setGlobalThreadCount(threads);
+}
 
-bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
+bool is_exr(const std::string& path) {
+    return Imf::isOpenExrFile(path.c_str());
+}
 
 // ---- writing
 
@@ -113,8 +127,7 @@ struct ExrWriter::State {
     std::optional<Imf::OutputFile> file;
 
     State(const std::string& path, int width_, int height_, std::vector<ExrChannel> channels_)
-        : pending(path), width(width_), height(height_), channels(std::move(channels_)),
-          stream(pending.stream()) {}
+        : pending(path), width(width_), height(height_), channels(std::move(channels_)), stream(pending.stream()) {}
 };
 
 ExrWriter::ExrWriter(const std::string& path, int width, int height, std::vector<ExrChannel> channels,
@@ -135,6 +148,7 @@ ExrWriter::ExrWriter(const std::string& path, int width, int height, std::vector
             header.channels().insert(c.name, Imf::Channel(pixel_type(c.is_id)));
         }
         s.file.emplace(s.stream, header, Imf::globalThreadCount());
+        s.stream.end_header();
     } catch (const std::exception& e) {
         throw s.pending.write_error(e.what());
     }
@@ -163,6 +177,30 @@ void ExrWriter::write_rows(int y, int count, std::span<const ExrRows> channels) 
         throw s.pending.write_error(e.what());
     }
     s.next_row += count;
+}
+
+void ExrWriter::set_attribute(const std::string& name, float value) {
+    // The library writes the header once. In the file an attribute is its name, its type, its size and its value,
+    // numbers little-endian (OpenEXR, "OpenEXR File Layout").
+    State& s = *state_;
+    std::string entry = name;
+    entry += '\0';
+    entry += "float";
+    entry += '\0';
+    entry += std::string("\4\0\0\0", 4);
+    const auto found = s.stream.header().find(entry);
+    if (found == std::string::npos) throw s.pending.write_error("it has no float attribute " + name);
+    const auto bits = std::bit_cast<uint32_t>(value);
+    char bytes[4];
+    for (int i = 0; i < 4; ++i) bytes[i] = char(bits >> (8 * i));
+    const uint64_t end = s.stream.tellp();
+    s.stream.seekp(found + entry.size());
+    try {
+        s.stream.write(bytes, 4);
+    } catch (const std::exception& e) {
+        throw s.pending.write_error(e.what());
+    }
+    s.stream.seekp(end);
 }
 
 void ExrWriter::finish() {
@@ -216,10 +254,18 @@ ExrReader::ExrReader(const std::string& path) : state_(std::make_unique<State>()
 
 ExrReader::~ExrReader() = default;
 
-int ExrReader::width() const { return state_->width(); }
-int ExrReader::height() const { return state_->height(); }
-const std::vector<ExrChannel>& ExrReader::channels() const { return state_->channels; }
-const ExrAttributes& ExrReader::attributes() const { return state_->attributes; }
+int ExrReader::width() const {
+    return state_->width();
+}
+int ExrReader::height() const {
+    return state_->height();
+}
+const std::vector<ExrChannel>& ExrReader::channels() const {
+    return state_->channels;
+}
+const ExrAttributes& ExrReader::attributes() const {
+    return state_->attributes;
+}
 
 bool ExrReader::has_channel(const std::string& name) const {
     return std::ranges::find(state_->channels, name, &ExrChannel::name) != state_->channels.end();

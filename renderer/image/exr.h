@@ -47,6 +47,10 @@ public:
     /// call ended. Bands of a multiple of 16 rows are compressed without being copied and in parallel.
     void write_rows(int y, int count, std::span<const ExrRows> channels);
 
+    /// Replaces the value of a float attribute that the constructor was given; also when rows are written already, for
+    /// what is known only then.
+    void set_attribute(const std::string& name, float value);
+
     /// Gives the file its final name once all rows are written.
     void finish();
 

@@ -80,6 +80,20 @@ bool may_be_transparent(const Scene& scene, const Mesh& mesh) {
     return m.alpha_mode == AlphaMode::mask ? m.alpha < m.alpha_cutoff : m.alpha < 1;
 }
 
+bool may_let_straight_through(const Material& m) {
+    return m.transmission > 0 && !m.has_volume() && !m.unlit &&
+           (m.roughness <= min_roughness || m.metallic_roughness_texture.used());
+}
+
+Rgb straight_transmittance(const Scene& scene, const SurfacePoint& point, const Surface& surface, Vec3 direction,
+                           Counters& counters) {
+    const auto* pane = std::get_if<Pane>(&surface.bsdf);
+    if (!pane) return Rgb(0);
+    const Triangle t(scene, point);
+    const Vec3 wo = ShadingBasis(surface.shading_normal).to_local(-direction);
+    return prepare(*pane, wo).transmittance * transmission_at(scene, scene.materials[t.mesh.material], t, counters);
+}
+
 std::array<Vec3d, 3> corners(const Scene& scene, int instance, int triangle) {
     const Instance& i = scene.instances[instance];
     const Mesh& mesh = scene.meshes[i.mesh];

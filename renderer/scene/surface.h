@@ -34,6 +34,14 @@ float opacity(const Scene& scene, const SurfacePoint& point);
 /// Whether opacity() can be below 1 anywhere on a mesh with this material.
 bool may_be_transparent(const Scene& scene, const Mesh& mesh);
 
+/// Whether straight_transmittance() can be above 0 anywhere on a mesh with this material: a thin pane that is smooth.
+bool may_let_straight_through(const Material& material);
+
+/// Share of the light along a ray that goes straight on through a surface which it meets; 0 but for smooth panes.
+/// surface: as evaluate_surface() gives it with u = 0.
+Rgb straight_transmittance(const Scene& scene, const SurfacePoint& point, const Surface& surface, Vec3 direction,
+                           Counters& counters);
+
 /// Corners of a triangle of an instance, in the scene's coordinates.
 std::array<Vec3d, 3> corners(const Scene& scene, int instance, int triangle);
 

@@ -3,7 +3,23 @@
 namespace pluvia {
 namespace {
 
-float transmission_at(const Scene& scene, const Material& material, const Triangle& t, float metallic,
+struct MetalAndRoughness {
+    float metallic, roughness;
+};
+
+MetalAndRoughness metal_and_roughness(const Scene& scene, const Material& material, const Triangle& t,
+                                      Counters& counters) {
+    MetalAndRoughness m{material.metallic, material.roughness};
+    if (material.metallic_roughness_texture.used()) {
+        const Vec3 stored = slot_linear(scene, material.metallic_roughness_texture, t);
+        m.roughness *= stored.y;
+        m.metallic *= stored.z;
+        counters.count(Feature::texture);
+    }
+    return m;
+}
+
+float transmission_of(const Scene& scene, const Material& material, const Triangle& t, float metallic,
                       Counters& counters) {
     float transmission = material.transmission * (1 - metallic);
     if (material.transmission_texture.used()) {
@@ -42,17 +58,15 @@ Rgb base_color(const Scene& scene, const Material& material, const Triangle& t, 
     return {std::clamp(color.r, 0.0f, 1.0f), std::clamp(color.g, 0.0f, 1.0f), std::clamp(color.b, 0.0f, 1.0f)};
 }
 
+float transmission_at(const Scene& scene, const Material& material, const Triangle& t, Counters& counters) {
+    return transmission_of(scene, material, t, metal_and_roughness(scene, material, t, counters).metallic, counters);
+}
+
 Bsdf bsdf_at(const Scene& scene, const Material& material, const Triangle& t, bool from_front, float u,
              Counters& counters) {
     const Rgb color = base_color(scene, material, t, counters);
-    float metallic = material.metallic, roughness = material.roughness;
-    if (material.metallic_roughness_texture.used()) {
-        const Vec3 stored = slot_linear(scene, material.metallic_roughness_texture, t);
-        roughness *= stored.y;
-        metallic *= stored.z;
-        counters.count(Feature::texture);
-    }
-    if (material.transmission > 0 && u < transmission_at(scene, material, t, metallic, counters))
+    const auto [metallic, roughness] = metal_and_roughness(scene, material, t, counters);
+    if (material.transmission > 0 && u < transmission_of(scene, material, t, metallic, counters))
         return transmitting_bsdf(material, color, roughness, from_front, counters);
     MetallicRoughness m{color, metallic, roughness, material.specular, material.specular_color, material.ior};
     if (material.specular_texture.used()) {

@@ -74,7 +74,20 @@ Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, D
         light.distance = length(to_light);
         light.wi = to_light / light.distance;
     }
-    return is_visible(ray_scene, from, light, opacity, counters) ? pick.estimate() : Rgb(0);
+    return pick.estimate() * visible_share(ray_scene, from, light, opacity, counters);
+}
+
+/// What is left of light that goes straight on through all that the ray meets.
+Rgb through_panes(const RayScene& ray_scene, Ray ray, OpacityTest opacity, Counters& counters) {
+    Rgb left(1);
+    RayHit hit;
+    while (!is_black(left) && ray_scene.closest_hit(ray, opacity, hit, counters)) {
+        const Surface surface = evaluate_surface(ray_scene.scene(), hit.point, ray.direction, 0, counters);
+        left *= straight_transmittance(ray_scene.scene(), hit.point, surface, ray.direction, counters);
+        ray = {offset_from_surface(surface.position, -surface.geometric_normal), ray.direction,
+               ray.t_max - hit.distance};
+    }
+    return left;
 }
 
 /// Choice i of a few, stratified.
@@ -84,9 +97,17 @@ float stratified(float u, int i, int count) {
 
 }  // namespace
 
-bool is_visible(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
-                Counters& counters) {
-    return !ray_scene.occluded({from, light.wi, light.distance * before_light}, opacity, counters);
+Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
+                  Counters& counters) {
+    const Ray ray{from, light.wi, light.distance * before_light};
+    switch (ray_scene.obstruction(ray, opacity, counters)) {
+        case Obstruction::none:
+            return Rgb(1);
+        case Obstruction::panes:
+            return through_panes(ray_scene, ray, opacity, counters);
+        default:
+            return Rgb(0);
+    }
 }
 
 Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& v, Counters& counters) {

@@ -41,9 +41,9 @@ struct Vertex {
     int bounce;
 };
 
-/// Share of a light sample that arrives at a point: 0 or 1.
-bool is_visible(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
-                Counters& counters);
+/// Share of a light sample that arrives at a point: 1, 0, or what smooth panes on the way let straight through.
+Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
+                  Counters& counters);
 
 /// Radiance that the surface scatters towards the ray it was met by, weighed against sampling the Bsdf.
 Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& vertex, Counters& counters);

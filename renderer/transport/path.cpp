@@ -18,6 +18,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
     Rgb throughput(1);  // of basic radiance: see shaders/glass.h
     Media media;
     const int first_bounce = bounce;
+    int straight = 0;  // panes passed on the way: no scattering events, as they are none for light samples
     for (;; ++bounce) {
         RayHit hit;
         if (!ray_scene_->closest_hit(ray, {sampler.key(Draw::opacity, bounce)}, hit, counters)) {
@@ -42,7 +43,8 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
                 origin.pdf > 0 ? origin.weight_of_local(lights_->pdf_local(origin.receiver, hit.point)) : 1.0f;
             result.radiance += throughput * surface.emission * mis;
         }
-        if (bounce >= settings_.max_bounces) return result;
+        const bool last = bounce - straight >= settings_.max_bounces;
+        if (last && !lets_straight_through(surface.bsdf)) return result;
 
         const ShadingBasis basis(surface.shading_normal);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
@@ -62,8 +64,14 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }
-        origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples,
-                  distant_light_samples};
+        // What light samples see through leaves them their part of what lies behind.
+        if (next->transmitted && lets_straight_through(surface.bsdf))
+            ++straight;
+        else if (last)
+            return result;
+        else
+            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples,
+                      distant_light_samples};
         if (next->transmitted && surface.volume >= 0) {
             if (surface.from_front)
                 media.enter(surface.volume);

@@ -159,9 +159,8 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
         scratch, sampler.get_1d(Draw::streak_choice),
         [&](float weight) { return worth(weight * luminance(contribution), segment); },
         [&] {
-            const bool visible =
-                is_visible(tracer_->ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
-            return visible ? contribution : Rgb(0);
+            return contribution *
+                   visible_share(tracer_->ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
         });
 }
 

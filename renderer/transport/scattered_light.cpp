@@ -47,9 +47,8 @@ void ScatteredLight::weigh_lamp(float weight) {
 Rgb ScatteredLight::trace(Counters& counters) const {
     Rgb sum;
     for (int i = 0; i < count_; ++i)
-        if (is_visible(tracer_->ray_scene(), position_, candidates_[i].light, {sampler_->key(candidates_[i].draw)},
-                       counters))
-            sum += candidates_[i].contribution;
+        sum += candidates_[i].contribution * visible_share(tracer_->ray_scene(), position_, candidates_[i].light,
+                                                           {sampler_->key(candidates_[i].draw)}, counters);
     const Vec2 u = sampler_->get_2d(Draw::streak_phase);
     const Vec3 wi = scatterer_ == Scatterer::drop ? sample_drop_phase(direction_, u) : sample_fog_phase(direction_, u);
     const PathResult path = tracer_->trace({position_, wi}, {phase(dot(wi, direction_)), {position_, Vec3()}},

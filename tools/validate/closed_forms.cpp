@@ -26,6 +26,7 @@ const std::vector<ClosedForm>& closed_forms() {
         {"furnaces", measure_furnaces},
         {"albedos", measure_albedos},
         {"panes", measure_panes},
+        {"bodies", measure_bodies},
         {"punctual-lights", measure_punctual_lights},
         {"area-lights", measure_area_lights},
         {"environments", measure_environments},

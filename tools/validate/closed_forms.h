@@ -35,6 +35,7 @@ const std::vector<ClosedForm>& closed_forms();
 std::vector<ClosedFormResult> measure_furnaces(uint64_t seed);
 std::vector<ClosedFormResult> measure_albedos(uint64_t seed);
 std::vector<ClosedFormResult> measure_panes(uint64_t seed);
+std::vector<ClosedFormResult> measure_bodies(uint64_t seed);
 std::vector<ClosedFormResult> measure_punctual_lights(uint64_t seed);
 std::vector<ClosedFormResult> measure_area_lights(uint64_t seed);
 std::vector<ClosedFormResult> measure_environments(uint64_t seed);
