@@ -42,7 +42,9 @@ std::string read_text(const std::string& path) {
 void write_text(const std::string& path, std::string_view text) {
     std::ofstream(path, std::ios::binary).write(text.data(), std::streamsize(text.size()));
 }
-std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+std::span<const std::byte> bytes_of(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
 
 /// The error that body throws; a test fails when there is none.
 template <class Body>
@@ -54,7 +56,9 @@ Error error_of(Body body) {
     }
     return {ExitCode::ok, "", "no error"};
 }
-bool names(const Error& error, const std::string& path) { return std::string(error.what()).starts_with(path + ": "); }
+bool names(const Error& error, const std::string& path) {
+    return std::string(error.what()).starts_with(path + ": ");
+}
 
 template <class T>
 void write_png(const std::string& path, int width, int height, int channels, const T* values) {
@@ -83,6 +87,23 @@ std::string grey_jpeg() {
 }
 
 }  // namespace
+
+TEST_CASE("a JPEG keeps colours, also where they change from pixel to pixel") {
+    Image<Rgba8> image(32, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 32; ++x) image.at(x, y) = {uint8_t(x % 2 ? 200 : 60), uint8_t(8 * x), uint8_t(16 * y)};
+    const Image<Rgba8> back = decode_rgba8(encode_jpeg(image, 98), "memory");
+    REQUIRE(back.width == 32);
+    REQUIRE(back.height == 16);
+    int largest = 0;
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        const Rgba8 a = image.pixels[i], b = back.pixels[i];
+        largest = std::max({largest, std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+    }
+    CHECK(largest <= 8);  // red halved in resolution would be off by 70
+    CHECK(encode_jpeg(image, 98) == encode_jpeg(image, 98));
+    CHECK_THROWS_AS(encode_jpeg(Image<Rgba8>(), 98), Error);
+}
 
 TEST_CASE("a PNG in memory gives back every byte, also under zero alpha") {
     const Image<Rgba8> image = patterned(61, 33);

@@ -1,13 +1,8 @@
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
-#include "renderer/image/exr.h"
-#include "renderer/scene/gltf.h"
-#include "renderer/scene/lamps.h"
 #include "tools/commands.h"
-#include "tools/display_files.h"
-#include "tools/frame_file.h"
+#include "tools/frame_render.h"
 #include "tools/progress.h"
-#include "tools/render_options.h"
 
 #include <fmt/format.h>
 
@@ -27,13 +22,6 @@ void prepare_folder(const RenderOptions& options) {
     if (error)
         throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
     fs::remove(options.output + "/frame.json", error);  // it names a finished frame, and there is none until the end
-}
-
-/// m/s, as the file animates the camera.
-Vec3d velocity_of(const Scene& scene, const GltfContents& contents, const Camera& camera) {
-    for (size_t i = 0; i < scene.cameras.size(); ++i)
-        if (scene.cameras[i].name == camera.name) return contents.camera_velocities[i];
-    return {};
 }
 
 void report(const RenderOptions& options, const RenderReport& r, const DisplayReport& display, double ev100,
@@ -66,61 +54,31 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
 
 void render_command(const RenderOptions& options) {
     // Everything is checked before anything is computed or written.
-    CameraSettings camera_options = camera_settings(options);
-    const RenderSettings settings = render_settings(options);
-    const auto exposure = exposure_ev100(options);
-    DisplaySettings display;
-    display.view = options.view;
-    display.depth_encoding = depth_encoding_from_name(options.depth_encoding, "--depth-encoding");
-    display.depth_max = float(options.depth_max);
-    display.paper = settings.streaks.composition == Composition::paper;
-    DisplayView check_view(options.view);
     const auto progress_style = Progress::style_from_name(options.progress);
+    render_settings(options);  // the number of threads is one of them
     set_thread_count(options.threads);
-    const Environment environment = make_environment(options.light, !options.rain.empty());
-
-    GltfContents contents;
-    Scene scene = load_gltf(
-        options.scene, {camera_options.mid_exposure, camera_options.exposure_time, options.allow_outside}, &contents);
-    for (const std::string& warning : scene.warnings)
-        std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
-    const Camera camera = find_camera(scene, options.camera);
-    if (options.camera_velocity.empty()) camera_options.velocity = velocity_of(scene, contents, camera);
-    const uint64_t scene_hash = content_hash(scene);  // of the file, whatever is switched off
-    if (lamp_count(scene) > 0 && !lamps_are_on(options.light, environment)) switch_off_lamps(scene);
-    scene.unlit_luminance = unlit_luminance(exposure, environment);
+    const FrameSettings settings(options);
+    FrameScene scene = load_frame_scene(options);
+    find_camera(scene.scene, options.camera);
     prepare_folder(options);
 
-    FrameHeader header{scene.name,
-                       scene_hash,
-                       scene.origin,
-                       camera.name,
-                       make_view(camera, camera_options),
-                       to_json(options),
-                       settings.rain.intensities_mm_per_h};
     catch_interrupts();
     const std::string exr = options.output + "/frame.exr";
-    FrameWriter writer(exr, header);
-    RenderReport result;
+    std::optional<RenderedFrame> frame;
     {
         Progress progress(progress_style, "rendering");
-        result = render(
-            scene, environment, header.view, settings, [&](const Band& band) { writer.write(band); },
-            [&](double done) { return progress.update(done); });
+        frame =
+            render_frame(std::move(scene), options, settings, exr, [&](double done) { return progress.update(done); });
     }
-    display.ev100 = exposure ? *exposure : writer.background_luminance().auto_ev100();
-    writer.finish(display.ev100);
-
-    display.text = {{"Software", std::string("Pluvia ") + PLUVIA_VERSION},
-                    {"pluvia:settings", json_text(header.options)},
-                    {"pluvia:exposure_ev100", fmt::format("{}", display.ev100)}};
-    const DisplayReport shown = write_display_files(options.output, exr, header.intensities, display);
-    write_text(options.output + "/frame.json", json_text(frame_json(header, display.ev100, result.counters), 2) + "\n");
-    report(options, result, shown, display.ev100, header.intensities);
-    if (result.counters.invalid_samples > 0)
-        throw Error(ExitCode::render_failed, options.output,
-                    fmt::format("{} of {} samples were not finite and are missing from the picture",
-                                result.counters.invalid_samples, result.counters[Feature::camera_path]));
+    DisplaySettings display = settings.display;
+    display.ev100 = frame->ev100;
+    display.text = display_text(*frame);
+    const std::vector<double>& intensities = frame->header.intensities;
+    const DisplayReport shown = write_display_files(options.output, exr, intensities, display);
+    write_text(options.output + "/frame.json",
+               json_text(frame_json(frame->header, frame->ev100, frame->report.counters), 2) + "\n");
+    report(options, frame->report, shown, frame->ev100, intensities);
+    require_valid_samples(*frame, options.output);
 }
 
 }  // namespace

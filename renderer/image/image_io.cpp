@@ -255,18 +255,31 @@ private:
     std::ofstream& file_;
 };
 
+std::vector<std::byte> encode(const char* format, const OIIO::ImageSpec& spec, const Image<Rgba8>& image) {
+    const std::string where = std::string("a ") + format + " picture in memory";
+    // The library's JPEG writer ends the program when it cannot begin.
+    if (image.pixels.empty()) throw Error(ExitCode::render_failed, where, "cannot be written (it has no pixels)");
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput memory(bytes);
+    const auto output = OIIO::ImageOutput::create(format);
+    if (!output->set_ioproxy(&memory) || !output->open(std::string("memory.") + format, spec) ||
+        !output->write_image(OIIO::TypeUInt8, image.pixels.data(), sizeof(Rgba8)) || !output->close())
+        throw Error(ExitCode::render_failed, where, "cannot be written (" + output->geterror() + ")");
+    const auto encoded = std::as_bytes(std::span(bytes));
+    return {encoded.begin(), encoded.end()};
+}
+
 }  // namespace
 
 std::vector<std::byte> encode_png(const Image<Rgba8>& image) {
-    const OIIO::ImageSpec spec = png_spec(image.width, image.height, 4, 8);
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const auto output = OIIO::ImageOutput::create("png");
-    if (!output->set_ioproxy(&memory) || !output->open("memory.png", spec) ||
-        !output->write_image(OIIO::TypeUInt8, image.pixels.data()) || !output->close())
-        throw Error(ExitCode::render_failed, "PNG in memory", "cannot be written (" + output->geterror() + ")");
-    const auto encoded = std::as_bytes(std::span(bytes));
-    return {encoded.begin(), encoded.end()};
+    return encode("png", png_spec(image.width, image.height, 4, 8), image);
+}
+
+std::vector<std::byte> encode_jpeg(const Image<Rgba8>& image, int quality) {
+    OIIO::ImageSpec spec(image.width, image.height, 3, OIIO::TypeUInt8);
+    spec["Compression"] = "jpeg:" + std::to_string(quality);
+    spec["jpeg:subsampling"] = "4:4:4";
+    return encode("jpeg", spec, image);
 }
 
 struct PngWriter::State {

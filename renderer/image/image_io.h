@@ -48,6 +48,10 @@ Image<Rgb> read_radiance(const std::string& path);
 /// A PNG file's bytes, 8 bits with alpha. Throws Error (render_failed) when the picture is empty.
 std::vector<std::byte> encode_png(const Image<Rgba8>& image);
 
+/// A JPEG file's bytes: quality 1 to 100, colour at full resolution, alpha dropped. The same pixels give the same
+/// bytes. Throws Error (render_failed) when the picture is empty.
+std::vector<std::byte> encode_jpeg(const Image<Rgba8>& image, int quality);
+
 /// Keyword and text, Latin-1, stored as tEXt chunks.
 using PngText = std::map<std::string, std::string>;
 

@@ -3,6 +3,7 @@
 #include "renderer/image/color.h"
 #include "renderer/image/image_io.h"
 #include "tools/frame_file.h"
+#include "tools/html_parts.h"
 #include "tools/validate/compare_report.h"
 
 #include <fmt/format.h>
@@ -14,71 +15,6 @@
 
 namespace pluvia {
 namespace {
-
-constexpr const char* style = R"(
-body{font:15px/1.45 system-ui,sans-serif;margin:24px auto;max-width:1240px;padding:0 16px;color:#222;background:#fff}
-h1{font-size:20px}h2{font-size:17px;margin-top:36px}h3{font-size:14px;margin:14px 0 4px}
-pre{background:#f5f5f5;padding:10px;overflow-x:auto;font-size:13px}
-.pair{display:inline-block;max-width:100%}.slider{position:relative;line-height:0;touch-action:none;user-select:none}
-.slider img,.map img{max-width:100%;image-rendering:auto}
-.slider img{pointer-events:none}.slider .over{position:absolute;left:0;top:0;width:100%;height:100%;clip-path:inset(0 50% 0 0)}
-.slider .line{position:absolute;top:0;bottom:0;left:50%;width:2px;background:#fff;box-shadow:0 0 3px #000;pointer-events:none}
-.slider b{position:absolute;top:8px;font:600 13px/1 system-ui;color:#fff;text-shadow:0 0 3px #000,0 0 3px #000}
-input[type=range]{width:100%;margin:6px 0 0}
-.row{display:flex;flex-wrap:wrap;gap:16px}.map{flex:1 1 420px}
-.note{color:#666;font-size:13px}svg{background:#fafafa;max-width:100%}
-)";
-
-// The picture on top is cut at the slider's place.
-constexpr const char* script = R"(
-for(const s of document.querySelectorAll('.slider')){const r=s.parentElement.querySelector('input');
-const set=()=>{s.querySelector('.over').style.clipPath='inset(0 '+(100-r.value)+'% 0 0)';s.querySelector('.line').style.left=r.value+'%'};
-r.addEventListener('input',set);
-const drag=e=>{const b=s.getBoundingClientRect();r.value=100*(e.clientX-b.left)/b.width;set()};
-s.addEventListener('pointerdown',e=>{s.setPointerCapture(e.pointerId);drag(e)});
-s.addEventListener('pointermove',e=>{if(e.buttons)drag(e)});set()}
-)";
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) switch (c) {
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '&':
-                result += "&amp;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += c;
-        }
-    return result;
-}
-
-std::string base64(const std::vector<std::byte>& bytes) {
-    constexpr const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() * 4 / 3 + 4);
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        const size_t left = bytes.size() - i;
-        const auto at = [&](size_t k) { return k < left ? unsigned(bytes[i + k]) : 0u; };
-        const unsigned word = at(0) << 16 | at(1) << 8 | at(2);
-        text += digits[word >> 18];
-        text += digits[word >> 12 & 63];
-        text += left > 1 ? digits[word >> 6 & 63] : '=';
-        text += left > 2 ? digits[word & 63] : '=';
-    }
-    return text;
-}
-
-std::string data_url(const Image<Rgba8>& image) {
-    return "data:image/png;base64," + base64(encode_png(image));
-}
 
 using Ramp = std::array<Rgb, 5>;
 constexpr Ramp heat = {Rgb(0.00f, 0.00f, 0.02f),
@@ -135,8 +71,8 @@ std::string drawn(const Histogram& h) {
     double most = 1;
     for (const auto& bins : h.counts)
         for (const double n : bins) most = std::max(most, n);
-    std::string svg =
-        fmt::format("<h3>{}</h3><svg viewBox=\"0 0 {} {}\" width=\"{}\">", escaped(h.title), width, height + 20, width);
+    std::string svg = fmt::format("<h3>{}</h3><svg viewBox=\"0 0 {} {}\" width=\"{}\">", html_escaped(h.title), width,
+                                  height + 20, width);
     for (size_t k = 0; k < h.counts.size(); ++k) {
         std::string points;
         for (int i = 0; i < histogram_bins; ++i) {
@@ -154,7 +90,7 @@ std::string drawn(const Histogram& h) {
     return svg + fmt::format(
                      "<text x=\"2\" y=\"{0}\" font-size=\"12\">{1}</text><text x=\"{2}\" y=\"{0}\" font-size=\"12\" "
                      "text-anchor=\"end\">{3}</text></svg>",
-                     height + 15, escaped(h.low), width - 2, escaped(h.high));
+                     height + 15, html_escaped(h.low), width - 2, html_escaped(h.high));
 }
 
 // ---- what is shown of a pair
@@ -235,7 +171,7 @@ Views value_views(const ComparedPair& pair) {
 std::string map(const std::string& title, const Image<Rgba8>& image) {
     return image.pixels.empty() ? ""
                                 : fmt::format("<div class=\"map\"><h3>{}</h3><img alt=\"\" src=\"{}\"></div>",
-                                              escaped(title), data_url(image));
+                                              html_escaped(title), png_url(image));
 }
 
 }  // namespace
@@ -244,14 +180,8 @@ void HtmlReport::add(const ComparedPair& pair) {
     if (sections_.size() >= most_pictures_) return;
     const bool is_color = pair.result.kind == PictureKind::light || pair.result.kind == PictureKind::display;
     const Views v = is_color ? color_views(pair) : value_views(pair);
-    std::string html = fmt::format(
-        "<h2>{}</h2><div class=\"pair\"><div class=\"slider\"><img alt=\"B\" src=\"{}\"><img alt=\"A\" class=\"over\" "
-        "src=\"{}\">"
-        "<span class=\"line\"></span><b style=\"left:8px\">A</b><b style=\"right:8px\">B</b></div>"
-        "<input type=\"range\" min=\"0\" max=\"100\" step=\"0.1\" value=\"50\" aria-label=\"A to the left, B to the "
-        "right\">"
-        "</div>",
-        escaped(pair.result.name), data_url(v.b), data_url(v.a));
+    std::string html = fmt::format("<h2>{}</h2>{}", html_escaped(pair.result.name),
+                                   html_slider({"A", png_url(v.a)}, {"B", png_url(v.b)}));
     html += "<div class=\"row\">" + map(v.error_title, v.error) + map(v.difference_title, v.difference) + "</div>";
     html += "<div class=\"row\">";
     for (const Histogram& histogram : v.histograms) html += "<div>" + drawn(histogram) + "</div>";
@@ -262,15 +192,16 @@ void HtmlReport::write(const std::string& path, const std::string& a, const std:
                        const std::vector<PairResult>& pairs) const {
     std::string html =
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>pluvia validate compare</title><style>";
-    html += std::string(style) + "</style></head><body><h1>pluvia validate compare</h1><pre>" +
-            escaped(compare_table(a, b, pairs)) + "</pre>";
+    html += html_page_style + "</style></head><body><h1>pluvia validate compare</h1><pre>" +
+            html_escaped(compare_table(a, b, pairs)) + "</pre>";
     if (sections_.size() < pairs.size())
         html +=
             fmt::format("<p class=\"note\">Pictures of the first {} of {} pairs.</p>", sections_.size(), pairs.size());
     for (const std::string& section : sections_) html += section;
     html += "<h2>Definitions</h2><p class=\"note\">A is judged, B is the reference.</p><pre>";
-    for (const MetricInfo& info : metric_list()) html += escaped(fmt::format("{:<16}{}\n", info.name, info.definition));
-    write_text(path, html + "</pre><script>" + script + "</script></body></html>\n");
+    for (const MetricInfo& info : metric_list())
+        html += html_escaped(fmt::format("{:<16}{}\n", info.name, info.definition));
+    write_text(path, html + "</pre><script>" + html_slider_script + "</script></body></html>\n");
 }
 
 }  // namespace pluvia
