@@ -48,6 +48,7 @@ const std::map<std::string, std::string> doors = {
     {"CLI/", "tools/"},
     {"yaml-cpp", "tools/config"},
     {"torch/", "tools/learning/"},
+    {"ATen/", "tools/learning/"},
     {"doctest", "tests/"},
 };
 

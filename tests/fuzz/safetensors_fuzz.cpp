@@ -1,0 +1,61 @@
+// libFuzzer target of the reader of weights: whatever the bytes, tensors or a refusal with exit code 3, nothing else.
+//   CXX=clang++-14 cmake -S . -B build-fuzz -G Ninja -DPLUVIA_FUZZ=ON
+//   cmake --build build-fuzz --target safetensors_fuzz
+//   build-fuzz/tests/fuzz/safetensors_fuzz -dict=tests/fuzz/safetensors.dict -max_len=4096 -runs=1000000 FOLDER
+//     tests/fuzz/safetensors
+#include "renderer/core/error.h"
+#include "tools/learning/network_config.h"
+
+#include <unistd.h>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+using namespace pluvia;
+
+namespace {
+
+/// In memory where the system has such a folder; removed at the end.
+std::string make_file() {
+    const std::string base = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
+    static const std::string kept = base + "/pluvia_fuzz_" + std::to_string(getpid()) + ".safetensors";
+    std::atexit([] {
+        std::error_code ignored;
+        std::filesystem::remove(kept, ignored);
+    });
+    return kept;
+}
+
+/// Lets only refusals with exit code 3 pass.
+template <class Action>
+void expect_refusal_or_success(const Action& action) {
+    try {
+        action();
+    } catch (const Error& e) {
+        if (e.code() == ExitCode::input) return;
+        std::cerr << "not exit code 3: " << e.what() << "\n";
+        std::abort();
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
+    static const std::string path = make_file();
+    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes), std::streamsize(size));
+    expect_refusal_or_success([] {
+        SafetensorsFile file(path);
+        for (const auto& [name, entry] : file.entries())
+            expect_refusal_or_success([&] {
+                std::vector<float> values(entry.type <= TensorType::bf16 ? size_t(element_count(entry.shape)) : 0);
+                file.read(name, values);
+            });
+        const TensorShapes shapes = shapes_below(file.entries(), "");
+        expect_refusal_or_success([&] { unet_config(shapes, 32, path); });
+        expect_refusal_or_success([&] { first_stage_config(shapes, path); });
+    });
+    return 0;
+}
