@@ -1,6 +1,5 @@
-// The spectrum of skylight in 12 bands, and what the eye makes of them. A band
-// holds a part of the sun's light outside the atmosphere, so that transfer
-// through air is a number without unit per band.
+// The spectrum of skylight in 12 bands, and what the eye makes of them. A band holds a part of the sun's light outside
+// the atmosphere, so that transfer through air is a number without unit per band.
 #pragma once
 
 #include "renderer/core/rgb.h"
@@ -13,8 +12,7 @@ namespace pluvia {
 
 constexpr int band_count = 12;  // of 27.5 nm, from 390 to 720 nm
 
-/// One number per band. Loops of fixed length over floats, which compilers turn
-/// into vector instructions.
+/// One number per band. Loops of fixed length over floats, which compilers turn into vector instructions.
 struct Bands {
     alignas(16) std::array<float, band_count> v = {};
 
@@ -58,8 +56,7 @@ inline Bands exp_minus(const Bands& x) {
     return result;
 }
 
-/// (1 - exp(-x)) / x for x >= 0, of which `exp_minus_x` = exp(-x): the mean
-/// transmittance of a step of depth x.
+/// (1 - exp(-x)) / x for x >= 0, of which `exp_minus_x` = exp(-x): the mean transmittance of a step of depth x.
 inline Bands mean_transmittance(const Bands& x, const Bands& exp_minus_x) {
     Bands result;
     for (size_t i = 0; i < band_count; ++i) {
@@ -81,20 +78,17 @@ struct SpectralBand {
                         // illuminance in lux
     double ozone;       // optical depth of 300 DU of ozone
 };
-/// Sources: ASTM G173 extraterrestrial spectrum; CIE 1931 2-degree observer;
-/// ozone at 233 K, Serdyuchenko et al. 2014.
+/// Sources: ASTM G173 extraterrestrial spectrum; CIE 1931 2-degree observer; ozone at 233 K, Serdyuchenko et al. 2014.
 extern const std::array<SpectralBand, band_count> bands;
 
-/// Light whose part of the sun's light in each band is `transfer`: illuminance
-/// in lux for a part of irradiance, luminance in cd/m2 for a part per
-/// steradian.
+/// Light whose part of the sun's light in each band is `transfer`: illuminance in lux for a part of irradiance,
+/// luminance in cd/m2 for a part per steradian.
 Xyz xyz_from_bands(const Bands& transfer);
 /// Its luminance alone.
 double luminance_from_bands(const Bands& transfer);
 
-/// Linear Rec.709 with the luminance of CIE 1931 XYZ (matrix of IEC 61966-2-1).
-/// Colours that lie outside the gamut are moved towards grey at constant
-/// luminance until no component is negative. y must not be negative.
+/// Linear Rec.709 with the luminance of CIE 1931 XYZ (matrix of IEC 61966-2-1). Colours that lie outside the gamut are
+/// moved towards grey at constant luminance until no component is negative. y must not be negative.
 Rgb rec709_from_xyz(const Xyz& c);
 Xyz xyz_from_rec709(Rgb c);
 

@@ -12,9 +12,8 @@ namespace {
 constexpr double pi_d = std::numbers::pi;
 constexpr double above_ground = 1e-3;  // km; a point on the ground would lie below it by rounding
 constexpr double last_order = 1e-3;    // part of the sum that an order must add
-// The sun's axis is dense at the terminator, where light changes fastest. It
-// ends at -30 degrees: lower suns light nothing that can be told from
-// starlight.
+// The sun's axis is dense at the terminator, where light changes fastest. It ends at -30 degrees: lower suns light
+// nothing that can be told from starlight.
 constexpr double lowest_mu = -0.5;
 
 double axis_from_mu(double mu_s) {
@@ -80,9 +79,8 @@ GaussRule gauss_legendre(int n) {
     return rule;
 }
 
-/// A place on a ray: where it is, and what one unit of source there gives at
-/// the ray's start. The sun's cosine there is across * sin(sun) * cos(azimuth)
-/// + up * cos(sun), with the sun's angle and azimuth at the start.
+/// A place on a ray: where it is, and what one unit of source there gives at the ray's start. The sun's cosine there is
+/// across * sin(sun) * cos(azimuth) + up * cos(sun), with the sun's angle and azimuth at the start.
 struct RayPoint {
     double r, across, up;
     Bands weight;        // the ground's: albedo / pi behind the air; a step's: mean
@@ -133,8 +131,7 @@ Ray make_ray(const Atmosphere& atmosphere, double r, double mu, double solid_ang
     return ray;
 }
 
-/// Rays in all directions from a height, for a sphere split at the horizon,
-/// where radiance jumps.
+/// Rays in all directions from a height, for a sphere split at the horizon, where radiance jumps.
 std::vector<Ray> rays_from(const Atmosphere& atmosphere, double height, const ScatteringSize& size) {
     const double r = atmosphere.ground_radius + std::max(height, above_ground);
     const double ratio = atmosphere.ground_radius / r, horizon = -std::sqrt(std::max(0.0, 1 - ratio * ratio));
@@ -152,8 +149,7 @@ struct Sun {
     double cosine, sine;
 };
 
-/// What arrives at a height from all directions: J, its mean, and E, from above
-/// on the horizontal, per sun.
+/// What arrives at a height from all directions: J, its mean, and E, from above on the horizontal, per sun.
 struct Arrival {
     std::vector<Bands> mean, irradiance;
 };
@@ -201,8 +197,7 @@ void first_order(const Atmosphere& atmosphere, const ColumnTable& columns, const
         }
 }
 
-/// Light of one order more than `before`, which holds rows of suns per height
-/// and then the ground's irradiance.
+/// Light of one order more than `before`, which holds rows of suns per height and then the ground's irradiance.
 void next_order(const std::vector<Ray>& rays, const std::vector<Sun>& suns, const std::vector<Bands>& before,
                 int heights, const std::vector<double>& azimuths, Arrival& arrival) {
     const int count = int(suns.size());
@@ -279,8 +274,7 @@ ScatteringTable::ScatteringTable(const Atmosphere& atmosphere, const ColumnTable
         });
         order = next;
         for (size_t i = 0; i < values_.size(); ++i) values_[i] += order[i];
-        // Judged by the lowest height, for suns above -12 degrees: below, only
-        // ratios of nothing are left.
+        // Judged by the lowest height, for suns above -12 degrees: below, only ratios of nothing are left.
         const size_t first = size_t(place_on_axis(axis_from_mu(-0.2), suns_).cell);
         if (largest_ratio(order, values_, first, size_t(suns_)) < last_order) break;
     }

@@ -52,8 +52,7 @@ Body moon_of(const Moon& m, const SkySettings& s) {
     Body body{m.elevation, m.azimuth, moon_over_sun(m.phase_angle, m.parallax), moon_reddening(),
               moon_radius(m.parallax)};
     body.lit_from = Vec3(direction_from_azimuth(s.sun_azimuth, s.sun_elevation));
-    // By day its light in the air is less than a ten thousandth of the sun's; its
-    // disc is seen all the same.
+    // By day its light in the air is less than a ten thousandth of the sun's; its disc is seen all the same.
     constexpr double day = 0.17;
     body.lights_air = s.sun_elevation < day;
     return body;
@@ -127,8 +126,7 @@ void add_clouds(Picture& picture, double cover, Rgb irradiance) {
     Picture overcast(picture_width, picture_height);
     for (int y = 0; y < picture_height / 2; ++y)
         add_row(overcast, y, Rgb(float(overcast_luminance(std::sin(row_elevation(y))))));
-    // By the picture's own integral, so that the wanted illuminance is met to
-    // rounding.
+    // By the picture's own integral, so that the wanted illuminance is met to rounding.
     const Rgb scale = irradiance / luminance(sky_irradiance(overcast));
     for (int y = 0; y < picture_height / 2; ++y)
         for (int x = 0; x < picture_width; ++x)
@@ -163,8 +161,7 @@ Environment make_sky(const SkyTables& tables, const SkySettings& settings) {
     for (int y = 0; y < picture_height / 2; ++y) add_row(picture, y, night_sky_radiance(tables, row_elevation(y)));
 
     std::vector<Body> bodies;
-    // Below these heights the body's light is less than a thousandth of the night
-    // sky's.
+    // Below these heights the body's light is less than a thousandth of the night sky's.
     constexpr double last_sunlight = -0.35, last_moonlight = -0.14;
     if (settings.sun_elevation > last_sunlight) bodies.push_back(sun_of(settings));
     if (settings.moon && settings.moon->elevation > last_moonlight) bodies.push_back(moon_of(*settings.moon, settings));

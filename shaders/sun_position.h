@@ -1,11 +1,10 @@
-// Where the sun stands at a place and time, and by how much air lifts what
-// stands low. The moon is in moon_position.h, the light of both in sky.h.
+// Where the sun stands at a place and time, and by how much air lifts what stands low. The moon is in moon_position.h,
+// the light of both in sky.h.
 #pragma once
 
 namespace pluvia {
 
-/// A moment by the local clock, and the place. Daylight saving time is part of
-/// utc_offset.
+/// A moment by the local clock, and the place. Daylight saving time is part of utc_offset.
 struct PlaceAndTime {
     int year = 2025, month = 6,
         day = 21;           // Gregorian calendar, month and day from 1
@@ -15,16 +14,14 @@ struct PlaceAndTime {
     double longitude = 0;   // radians, east positive
 };
 
-/// A moment in universal time. Hour 24 of a day and hour 0 of the next are the
-/// same moment to the last bit.
+/// A moment in universal time. Hour 24 of a day and hour 0 of the next are the same moment to the last bit.
 struct Moment {
     double days = 0;  // from noon of 1 January 2000 to the midnight before
     double hour = 0;  // of that day, 0 to 24
 
     double julian_centuries() const { return (days + hour / 24) / 36525; }
 };
-/// Throws usage_error for a date that does not exist and a latitude out of
-/// range.
+/// Throws usage_error for a date that does not exist and a latitude out of range.
 Moment moment_of(const PlaceAndTime& at);
 
 /// Direction in radians.
@@ -41,16 +38,14 @@ struct SunPosition : Horizontal {
     double ecliptic_longitude = 0;  // radians
 };
 
-/// Position of the sun's centre within 0.01 degrees between 1900 and 2100
-/// (against the Solar Position Algorithm, Reda and Andreas 2004). Throws as
-/// moment_of. Source: NOAA solar calculator, after Meeus 1998, Astronomical
-/// Algorithms, chapters 25 and 28 (low accuracy).
+/// Position of the sun's centre within 0.01 degrees between 1900 and 2100 (against the Solar Position Algorithm, Reda
+/// and Andreas 2004). Throws as moment_of. Source: NOAA solar calculator, after Meeus 1998, Astronomical Algorithms,
+/// chapters 25 and 28 (low accuracy).
 SunPosition sun_position(const PlaceAndTime& at);
 
-/// Angle in radians by which air lifts what stands at an elevation: 0.48
-/// degrees at the horizon; below -0.6 degrees, where no formula is made for, it
-/// falls smoothly to 0 at -5 degrees. Source: Saemundsson 1986, as Meeus 1998,
-/// eq. 16.4.
+/// Angle in radians by which air lifts what stands at an elevation: 0.48 degrees at the horizon; below -0.6 degrees,
+/// where no formula is made for, it falls smoothly to 0 at -5 degrees. Source: Saemundsson 1986, as Meeus 1998, eq.
+/// 16.4.
 double refraction(double elevation);
 
 }  // namespace pluvia
