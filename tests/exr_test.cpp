@@ -1,8 +1,9 @@
 // EXR files: every bit comes back, bytes do not depend on threads, half a file never looks like a whole one.
 // Pictures in other formats are in image_test.cpp.
-#include "renderer/image/exr.h"
 #include "renderer/core/error.h"
 #include "renderer/core/random.h"
+#include "renderer/image/exr.h"
+#include "tests/error_of.h"
 
 #include <doctest/doctest.h>
 
@@ -41,15 +42,6 @@ void write_text(const std::string& path, const std::string& text) {
     std::ofstream(path, std::ios::binary).write(text.data(), std::streamsize(text.size()));
 }
 
-template <class Body>
-Error error_of(Body body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e;
-    }
-    return {ExitCode::ok, "", "no error"};
-}
 bool names(const Error& error, const std::string& path) {
     return std::string(error.what()).starts_with(path + ": ");
 }

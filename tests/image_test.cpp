@@ -5,6 +5,7 @@
 #include "renderer/image/color.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_io.h"
+#include "tests/error_of.h"
 
 #include <doctest/doctest.h>
 
@@ -46,16 +47,6 @@ std::span<const std::byte> bytes_of(std::string_view text) {
     return std::as_bytes(std::span(text));
 }
 
-/// The error that body throws; a test fails when there is none.
-template <class Body>
-Error error_of(Body body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e;
-    }
-    return {ExitCode::ok, "", "no error"};
-}
 bool names(const Error& error, const std::string& path) {
     return std::string(error.what()).starts_with(path + ": ");
 }

@@ -24,8 +24,8 @@ FrameScene load_frame_scene(const RenderOptions& options) {
     const CameraSettings camera = camera_settings(options);
     GltfContents contents;
     FrameScene result;
-    result.scene =
-        load_gltf(options.scene, {camera.mid_exposure, camera.exposure_time, options.allow_outside}, &contents);
+    result.scene = load_gltf(
+        options.scene, {camera.mid_exposure, camera.exposure_time, options.variant, options.allow_outside}, &contents);
     for (const std::string& warning : result.scene.warnings)
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     result.camera_velocities = contents.camera_velocities;

@@ -121,6 +121,7 @@ Json inspect_scene(const std::string& path, bool allow_outside) {
     j["animations"] = Json::array();
     for (const auto& animation : contents.animations)
         j["animations"].push_back({{"name", animation.name}, {"seconds", animation.duration}});
+    if (!contents.variants.empty()) j["variants"] = contents.variants;
     j["extensions"] = Json::array();
     for (const auto& extension : contents.extensions)
         j["extensions"].push_back({{"name", extension.name},

@@ -6,6 +6,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "glTF file, .glb or .gltf")->required();
     command.add_option("-o,--output", o.output, "folder for frame.exr, pictures and frame.json")->required();
 
+    command.add_option("--variant", o.variant,
+                       "which of the materials that a file has for its meshes; default: its first");
     command.add_flag("--allow-outside", o.allow_outside, "read files that the scene names outside of its folder");
 
     const auto* camera = "Camera";
@@ -105,6 +107,7 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     const auto optional = [&](const char* key, const std::optional<double>& value) {
         if (value) j[key] = *value;
     };
+    if (!o.variant.empty()) j["variant"] = o.variant;
     j["camera"] = o.camera, j["size"] = o.size, j["frame"] = o.frame, j["fps"] = o.fps;
     optional("focal-length", o.focal_length), optional("f-number", o.f_number), optional("focus", o.focus);
     j["shutter"] = o.shutter;

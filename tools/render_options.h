@@ -16,6 +16,7 @@ namespace pluvia {
 /// Everything that decides over the bytes of a frame, in the units of the command line.
 struct RenderOptions {
     std::string scene, output;
+    std::string variant;  // of the scene's materials
     bool allow_outside = false;
     std::string camera;
     int frame = 0;

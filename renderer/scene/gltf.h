@@ -1,8 +1,7 @@
 // Scenes from and to glTF 2.0 files, .gltf and .glb. The tinygltf door is here and in the gltf_*.cpp files beside it.
-// Read: core glTF (animations, skins, morph targets and sparse accessors included; no lines or points),
-// EXT_mesh_gpu_instancing, EXT_meshopt_compression, KHR_draco_mesh_compression, KHR_mesh_quantization,
-// KHR_lights_punctual, KHR_materials_emissive_strength, _ior, _specular (factor) and _transmission (factor). Whatever
-// else a file uses is named in Scene::warnings; what it requires is refused.
+// Read: core glTF (animations, skins, morph targets and sparse accessors included; no lines or points) and the
+// extensions listed in gltf_parse.cpp. Whatever else a file uses is named in Scene::warnings; what it requires is
+// refused.
 #pragma once
 
 #include "renderer/scene/scene.h"
@@ -15,6 +14,7 @@ namespace pluvia {
 struct GltfSettings {
     double time = 0;                  // seconds at which animations are sampled
     double exposure_time = 1.0 / 60;  // seconds around it over which a camera's velocity is measured
+    std::string variant;              // of KHR_materials_variants; empty: the materials that meshes have without one
     bool allow_outside = false;       // files that lie outside of the scene's folder may be read
 };
 
@@ -30,12 +30,13 @@ struct GltfContents {
     };
     int nodes = 0;
     std::vector<Animation> animations;
+    std::vector<std::string> variants;  // of KHR_materials_variants
     std::vector<Extension> extensions;
     std::vector<Vec3d> camera_velocities;  // of Scene::cameras during the exposure, m/s
 };
 
 /// Reads, checks and rebases a scene. An animated file's coordinates have the same origin at all times.
-/// Throws Error (input) naming the file and the node, accessor or image at fault.
+/// Throws Error (input) naming the file and the node, accessor or image at fault, and (usage) for an unknown variant.
 Scene load_gltf(const std::string& path, const GltfSettings& settings = {}, GltfContents* contents = nullptr);
 
 /// Writes a scene as one binary .glb with its pictures embedded as PNG; appears whole, by rename.

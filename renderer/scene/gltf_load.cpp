@@ -8,6 +8,7 @@
 #include "renderer/scene/gltf_mesh.h"
 #include "renderer/scene/gltf_nodes.h"
 #include "renderer/scene/gltf_parse.h"
+#include "renderer/scene/gltf_variants.h"
 #include "renderer/scene/open_volumes.h"
 
 #include <fmt/format.h>
@@ -278,6 +279,7 @@ GltfContents contents_of(const tinygltf::Model& model, const std::string& where)
             for (const float time : read_floats(model, sampler.input, 1, where))
                 entry.duration = std::max<double>(entry.duration, time);
     }
+    contents.variants = variant_names(model);
     for (const std::string& name : model.extensionsUsed) {
         const auto& required = model.extensionsRequired;
         const bool is_required = std::find(required.begin(), required.end(), name) != required.end();
@@ -291,6 +293,7 @@ GltfContents contents_of(const tinygltf::Model& model, const std::string& where)
 Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfContents* contents) {
     Scene scene;
     tinygltf::Model model = parse_gltf(path, settings, scene.warnings);
+    if (!settings.variant.empty()) choose_variant(model, settings.variant, path);
     scene.name = std::filesystem::path(path).stem().string();
     read_materials(model, path, scene);
     if (model.scenes.empty()) throw input_error(path, "has no scene");

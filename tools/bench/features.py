@@ -1,0 +1,162 @@
+#!/usr/bin/python3
+"""Renders small glTF files, one feature each, in Pluvia and in Blender's Cycles, and measures how they differ.
+
+Usage: tools/bench/features.py FOLDER [FILE.gltf...] [--pluvia build/pluvia] [--spp 256]
+Needs blender and Debian's python3-openimageio. Without files it makes its own: one material each on a sphere above a
+floor, or a sheet in front of it. FOLDER gets NAME_pluvia/, NAME_cycles.exr and both side by side as NAME.png (left:
+Pluvia); a table goes to stdout: bias and trimmed relMSE of Pluvia's background against Cycles', and what of the relMSE
+is noise: that between two seeds of Pluvia and two of Cycles.
+"""
+import argparse
+import base64
+import json
+import math
+import os
+import struct
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+SIZE = "384x288"
+
+GREY = {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 1}
+
+
+def material(base=None, **extensions):
+    made = {"pbrMetallicRoughness": dict(GREY, **(base or {})), "doubleSided": True}
+    for name in ("emissiveFactor", "alphaMode", "alphaCutoff"):
+        if name in extensions:
+            made[name] = extensions.pop(name)
+    if extensions:
+        made["extensions"] = {"KHR_materials_" + name: value for name, value in extensions.items()}
+    return made
+
+
+RED = {"baseColorFactor": [0.6, 0.05, 0.03, 1]}
+SPHERES = {
+    "plastic": material(dict(RED, roughnessFactor=0.4)),
+    "metal": material({"baseColorFactor": [0.9, 0.6, 0.3, 1], "metallicFactor": 1, "roughnessFactor": 0.35}),
+    "car_paint": material(dict(RED, metallicFactor=0.3, roughnessFactor=0.5),
+                          clearcoat={"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.1}),
+    "cloth": material({"baseColorFactor": [0.1, 0.1, 0.3, 1]},
+                      sheen={"sheenColorFactor": [0.5, 0.5, 0.6], "sheenRoughnessFactor": 0.5}),
+    "sign": material({"baseColorFactor": [0, 0, 0, 1]}, emissiveFactor=[1, 0.5, 0.1],
+                     emissive_strength={"emissiveStrength": 4}, specular={"specularFactor": 0}),
+    "glass_body": material({"baseColorFactor": [1, 1, 1, 1], "roughnessFactor": 0},
+                           transmission={"transmissionFactor": 1}, volume={"thicknessFactor": 1}, ior={"ior": 1.5}),
+}
+SHEETS = {
+    "window": material({"baseColorFactor": [0.9, 1, 0.95, 1], "roughnessFactor": 0}, transmission={"transmissionFactor": 1}),
+    "frosted_window": material({"baseColorFactor": [1, 1, 1, 1], "roughnessFactor": 0.3},
+                               transmission={"transmissionFactor": 1}),
+    "veil": material({"baseColorFactor": [0.2, 0.5, 0.2, 0.5]}, alphaMode="BLEND"),
+}
+
+
+class Draft:
+    """A glTF file under construction, its one buffer as a data URI."""
+
+    def __init__(self):
+        self.bytes, self.root = b"", {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}], "nodes": [],
+                                      "meshes": [], "materials": [], "accessors": [], "bufferViews": [], "cameras": []}
+
+    def accessor(self, rows, kind, code, component, bounds):
+        data = struct.pack("<%d%s" % (len(rows) * len(rows[0]), code), *[x for row in rows for x in row])
+        self.root["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data)})
+        self.bytes += data + b"\0" * (-len(data) % 4)
+        entry = {"bufferView": len(self.root["bufferViews"]) - 1, "componentType": component, "count": len(rows), "type": kind}
+        if bounds:
+            entry.update(min=[min(c) for c in zip(*rows)], max=[max(c) for c in zip(*rows)])
+        self.root["accessors"].append(entry)
+        return len(self.root["accessors"]) - 1
+
+    def mesh(self, positions, normals, triangles, made):
+        self.root["materials"].append(made)
+        primitive = {"attributes": {"POSITION": self.accessor(positions, "VEC3", "f", 5126, True),
+                                    "NORMAL": self.accessor(normals, "VEC3", "f", 5126, False)},
+                     "indices": self.accessor([[i] for t in triangles for i in t], "SCALAR", "I", 5125, False),
+                     "material": len(self.root["materials"]) - 1}
+        self.root["meshes"].append({"primitives": [primitive]})
+        self.node({"mesh": len(self.root["meshes"]) - 1})
+
+    def node(self, entry):
+        self.root["nodes"].append(entry)
+        self.root["scenes"][0]["nodes"].append(len(self.root["nodes"]) - 1)
+
+    def quad(self, corner, u, v, normal, made):
+        corners = [[corner[k] + a * u[k] + b * v[k] for k in range(3)] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        self.mesh(corners, [normal] * 4, [(0, 1, 2), (0, 2, 3)], made)
+
+    def sphere(self, centre, radius, made, rings=48, segments=96):
+        normals = [[math.sin(math.pi * i / rings) * math.cos(2 * math.pi * k / segments), math.cos(math.pi * i / rings),
+                    math.sin(math.pi * i / rings) * math.sin(2 * math.pi * k / segments)]
+                   for i in range(rings + 1) for k in range(segments + 1)]
+        w = segments + 1
+        triangles = [t for i in range(rings) for k in range(segments)
+                     for t in ((i * w + k, i * w + k + 1, (i + 1) * w + k), (i * w + k + 1, (i + 1) * w + k + 1, (i + 1) * w + k))
+                     if not (i == 0 and t[1] == i * w + k + 1 and t[2] == (i + 1) * w + k and t[0] == i * w + k and False)]
+        self.mesh([[centre[k] + radius * n[k] for k in range(3)] for n in normals], normals, triangles, made)
+
+    def save(self, path):
+        self.root["cameras"].append({"type": "perspective", "perspective": {"yfov": 0.6, "znear": 0.01}})
+        self.node({"camera": 0, "translation": [0, 1.6, 5], "rotation": [-math.sin(0.1), 0, 0, math.cos(0.1)]})
+        used = sorted({e for m in self.root["materials"] for e in m.get("extensions", {})})
+        if used:
+            self.root["extensionsUsed"] = used
+        uri = "data:application/octet-stream;base64," + base64.b64encode(self.bytes).decode()
+        self.root["buffers"] = [{"byteLength": len(self.bytes), "uri": uri}]
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(self.root, file)
+
+
+def make_files(folder):
+    files = []
+    for name, made in list(SPHERES.items()) + list(SHEETS.items()):
+        draft = Draft()
+        draft.quad([-4, 0, 4], [8, 0, 0], [0, 0, -8], [0, 1, 0], material())
+        draft.quad([-4, 0, -2], [8, 0, 0], [0, 4, 0], [0, 0, 1], material({"baseColorFactor": [0.3, 0.4, 0.5, 1]}))
+        draft.sphere([0, 0.75, 0], 0.75, made if name in SPHERES else SPHERES["plastic"])
+        if name in SHEETS:
+            draft.quad([-0.2, 0.1, 1.2], [1.4, 0, 0.4], [0, 1.5, 0], [-0.275, 0, 0.961], made)
+        files.append(f"{folder}/{name}.gltf")
+        draft.save(files[-1])
+    return files
+
+
+def run(command):
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"features: {' '.join(command)}: failed\n{done.stdout[-1000:]}{done.stderr[-1000:]}")
+    return done.stdout
+
+
+def compare(options, a, b, layer):
+    text = run([options.pluvia, "validate", "compare", a, b, "--layer", layer, "--json"])
+    return json.loads(text)
+
+
+def measure(options, path):
+    name = os.path.splitext(os.path.basename(path))[0]
+    ours, theirs = f"{options.folder}/{name}_pluvia", f"{options.folder}/{name}_cycles"
+    width, height = SIZE.split("x")
+    for seed in ("0", "1"):
+        run([options.pluvia, "render", path, "-o", f"{ours}_{seed}", "--size", SIZE, "--spp", options.spp, "--seed", seed,
+             "--environment", options.environment, "--view", "filmic", "--progress", "none", "--overwrite"])
+        run(["blender", "-b", "--factory-startup", "-P", HERE + "/cycles.py", "--", path, f"{theirs}_{seed}.exr", width, height,
+             options.spp, options.environment, seed, f"{ours}_0/frame.json"])
+    return name, compare(options, f"{ours}_0/frame.exr", f"{theirs}_0.exr", "background"), [
+        compare(options, f"{ours}_1/frame.exr", f"{ours}_0/frame.exr", "background"),
+        compare(options, f"{theirs}_1.exr", f"{theirs}_0.exr", "")]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder")
+    parser.add_argument("files", nargs="*")
+    parser.add_argument("--pluvia", default="build/pluvia")
+    parser.add_argument("--spp", default="256")
+    options = parser.parse_args()
+    os.makedirs(options.folder, exist_ok=True)
+
+
+main()
