@@ -35,9 +35,13 @@ void prepare_coat(const Layered& material, Vec3 wo, PreparedLayered& seen) {
     if (material.coat == 0 || coat_wo.z <= 0) return;
     seen.has_coat = true;
     seen.tilted = material.coat_normal != Vec3(0, 0, 1);
-    seen.coat = prepare(
-        MetallicRoughness{.base_color = Rgb(0), .roughness = material.coat_roughness, .specular = material.coat},
-        coat_wo);
+    seen.coat = prepare(MetallicRoughness{.base_color = Rgb(0),
+                                          .metallic = 0,
+                                          .roughness = material.coat_roughness,
+                                          .specular = material.coat,
+                                          .specular_color = Rgb(1),
+                                          .ior = material.coat_ior},
+                        coat_wo);
     seen.coat_passed = seen.coat.coat_passed(seen.coat.albedo.at(coat_wo.z));
     seen.diffuse_scale = seen.tilted ? 1 : seen.coat_passed * diffuse_scale(seen);
 }

@@ -17,8 +17,9 @@ namespace pluvia {
 struct Layered {
     MetallicRoughness base;
     Sheen sheen;
-    float coat = 0;                // strength of the clear coat, whose index is 1.5; 0 to 1
+    float coat = 0;                // strength of the clear coat, 0 to 1
     float coat_roughness = 0;      // perceptual, 0 to 1
+    float coat_ior = 1.5f;         // of the coat
     Vec3 coat_normal = {0, 0, 1};  // unit, in the frame of the base's normal
 };
 

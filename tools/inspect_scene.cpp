@@ -4,6 +4,7 @@
 #include "renderer/scene/lamps.h"
 #include "tools/scene_memory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -41,6 +42,8 @@ Json features(const Scene& scene) {
     j["vertex_colored_meshes"] = colored;
     j["punctual_lights"] = scene.lights.size();
     j["lamps"] = lamp_count(scene);
+    j["never_wet_materials"] =
+        std::count_if(scene.materials.begin(), scene.materials.end(), [](const Material& m) { return !m.wet; });
     return j;
 }
 

@@ -51,7 +51,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->capture_default_str()
         ->group(quality);
 
-    const auto* rain = "Rain (seen directly; what mirrors and glass show is dry)";
+    const auto* rain = "Rain (seen directly, not in mirrors, puddles or through glass)";
     command
         .add_option("--rain", o.rain,
                     "intensities in mm/h, e.g. 10,25,50,100; 0 to 1000 (drop sizes are a fit up to about 500)")
@@ -74,6 +74,15 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         .add_option("--fog-beta", o.fog_beta, "extinction in 1/m of a fog beside the rain; 0.001: one sees 4 km far")
         ->capture_default_str()
         ->group(rain);
+
+    const auto* wet = "Wet ground (of the clean picture; where rain reaches, with --wind; what is marked stays dry)";
+    command.add_option("--wetness", o.wetness, "film of water: 0 = dry, 1 = closed")->capture_default_str()->group(wet);
+    command.add_option("--puddles", o.puddles, "share of level ground that water stands on, 0 to 1")
+        ->capture_default_str()
+        ->group(wet);
+    command.add_option("--ripples", o.ripples, "mm/h of the rain whose drops draw rings on the puddles, 0 to 1000")
+        ->capture_default_str()
+        ->group(wet);
 
     add_light_options(command, o.light);
 
@@ -116,6 +125,7 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;
     j["streak-gain"] = o.streak_gain, j["fog-beta"] = o.fog_beta;
     j["streak-width"] = streak_width(o);
+    j["wetness"] = o.wetness, j["puddles"] = o.puddles, j["ripples"] = o.ripples;
     add_json(j, o.light, !o.rain.empty());
     j["exposure"] = o.exposure, j["view"] = o.view;
     j["depth-encoding"] = o.depth_encoding, j["depth-max"] = o.depth_max;

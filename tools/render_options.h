@@ -31,6 +31,7 @@ struct RenderOptions {
     std::optional<double> streak_width;  // empty: 1/4, or 1 with the paper's composition
     double fog_beta = 0;
     std::vector<double> camera_velocity;  // empty = as the scene has it
+    double wetness = 0, puddles = 0, ripples = 0;
     LightOptions light;
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
     double shutter = 1.0 / 60;

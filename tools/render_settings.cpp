@@ -72,6 +72,12 @@ RenderSettings render_settings(const RenderOptions& o) {
     s.rain.fog_extinction = o.fog_beta;
     require_option(o.streak_gain > 0 && o.streak_gain <= 1000, "streak-gain", o.streak_gain, "above 0, up to 1000");
     s.streaks.paper_gain = o.streak_gain;
+    require_option(o.wetness >= 0 && o.wetness <= 1, "wetness", o.wetness, "0 to 1");
+    require_option(o.puddles >= 0 && o.puddles <= 1, "puddles", o.puddles, "0 to 1");
+    require_option(o.ripples >= 0 && o.ripples <= 1000, "ripples", o.ripples, "0 to 1000 mm/h");
+    if (o.ripples > 0 && o.puddles == 0)
+        fail_option("ripples", fmt::format("{}", o.ripples), "--puddles above 0 beside it: rings need standing water");
+    s.wet = {float(o.wetness), float(o.puddles), o.ripples};
     return s;
 }
 

@@ -32,6 +32,10 @@ enum class Feature {
     medium_point,
     medium_path,
     medium_lamp,
+    rain_shadow,
+    wet_surface,
+    puddle,
+    ripples,
     count,
 };
 
@@ -39,7 +43,8 @@ constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
     "camera_path", "texture",      "normal_map",    "vertex_color", "alpha",       "emissive_surface",
     "pane",        "frosted_pane", "glass",         "volume",       "clearcoat",   "sheen",
     "unlit",       "local_light",  "distant_light", "environment",  "lens",        "streak_test",
-    "streak_hit",  "streak_path",  "paper_streak",  "medium_point", "medium_path", "medium_lamp"};
+    "streak_hit",  "streak_path",  "paper_streak",  "medium_point", "medium_path", "medium_lamp",
+    "rain_shadow", "wet_surface",  "puddle",        "ripples"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

@@ -88,8 +88,24 @@ RainSegment RainMedium::segment(const Ray& ray, float cosine) const {
     return s;
 }
 
+bool RainMedium::is_dry(const RainSegment& segment, float distance) {
+    for (const DryPart& part : segment.dry)
+        if (distance < part.end) return distance >= part.begin;
+    return false;
+}
+
+float RainMedium::wet_depth_between(const Profile& p, const RainSegment& segment, float distance) const {
+    float depth = depth_between(p, segment, distance);
+    for (const DryPart& part : segment.dry) {
+        const float begin = std::max(part.begin, segment.begin), end = std::min(part.end, distance);
+        if (end <= begin) continue;
+        depth -= (depth_at(p, end * segment.cosine) - depth_at(p, begin * segment.cosine)) / segment.cosine;
+    }
+    return std::max(0.0f, depth);
+}
+
 void RainMedium::optical_depths(const RainSegment& segment, float distance, float* depths) const {
-    for (size_t i = 0; i < profiles_.size(); ++i) depths[i] = depth_between(profiles_[i], segment, distance);
+    for (size_t i = 0; i < profiles_.size(); ++i) depths[i] = wet_depth_between(profiles_[i], segment, distance);
 }
 
 void RainMedium::sample(Scatterer scatterer, const RainSegment& segment, float u, Scattering& result) const {
@@ -132,9 +148,13 @@ void RainMedium::weigh(Scatterer scatterer, const RainSegment& segment, float di
     result.distance = distance;
     result.weights.resize(profiles_.size());
     const float fog = fog_depth(segment, distance), z = distance * segment.cosine;
+    if (scatterer == Scatterer::drop && is_dry(segment, distance)) {
+        std::fill(result.weights.begin(), result.weights.end(), 0.0f);
+        return;
+    }
     for (size_t i = 0; i < profiles_.size(); ++i) {
         const float scattering = scatterer == Scatterer::fog ? fog_extinction_ : extinction_at(profiles_[i], z);
-        result.weights[i] = scattering * std::exp(-depth_between(profiles_[i], segment, distance) - fog) / pdf;
+        result.weights[i] = scattering * std::exp(-wet_depth_between(profiles_[i], segment, distance) - fog) / pdf;
     }
 }
 

@@ -9,16 +9,23 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <vector>
 
 namespace pluvia {
 
 constexpr double longest_rain_path = 2000;  // metres along a ray, where neither ground nor the top of the rain ends it
 
+/// A part of a ray that a roof keeps dry, metres along it.
+struct DryPart {
+    float begin, end;
+};
+
 /// The part of a ray along which there is rain; empty where end <= begin.
 struct RainSegment {
-    float begin = 0, end = 0;  // metres along the ray
-    float cosine = 1;          // of the ray with the view axis: view depth = distance * cosine
+    float begin = 0, end = 0;           // metres along the ray
+    float cosine = 1;                   // of the ray with the view axis: view depth = distance * cosine
+    std::span<const DryPart> dry = {};  // where there are no drops, in rising order; fog is there, too
 
     bool empty() const { return end <= begin; }
 };
@@ -42,7 +49,7 @@ public:
     bool has_fog() const { return fog_extinction_ > 0; }
 
     /// A distance at which to look for scattered light, and per intensity extinction * transmittance from the segment's
-    /// begin / pdf there. Its mean over samples is the share of light that this scatterer takes away.
+    /// begin / pdf there, 0 in dry parts. Its mean over samples is the share of light that this scatterer takes away.
     struct Scattering {
         float distance = 0;  // 0: nothing scatters on the segment
         std::vector<float> weights;
@@ -65,6 +72,7 @@ private:
     struct Profile {
         std::vector<float> extinction, depth;  // 1/m; optical depth from view depth 0 along the view axis
     };
+    static bool is_dry(const RainSegment& segment, float distance);
     static Profile make_profile(double intensity, double step, double diameter_per_depth);
     float extinction_at(const Profile& profile, float z) const;
     float depth_at(const Profile& profile, float z) const;
@@ -74,6 +82,8 @@ private:
         const float z0 = segment.begin * segment.cosine, z1 = distance * segment.cosine;
         return std::max(0.0f, (depth_at(profile, z1) - depth_at(profile, z0)) / segment.cosine);
     }
+    /// The same without what dry parts lack.
+    float wet_depth_between(const Profile& profile, const RainSegment& segment, float distance) const;
 
     std::array<Profile, 3> proposal_;
     std::vector<Profile> profiles_;  // one per intensity

@@ -1,6 +1,6 @@
 #include "renderer/scene/gltf_material.h"
 
-#include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_marks.h"
 #include "renderer/scene/gltf_texture.h"
 #include "renderer/scene/gltf_value.h"
 
@@ -28,6 +28,7 @@ public:
     Material read() {
         m_.name = source_.name;
         m_.lamp = is_marked_lamp(source_.extras);
+        m_.wet = !is_marked_dry(source_.extras);
         read_core();
         read_emission();
         read_specular();

@@ -1,7 +1,7 @@
 #include "renderer/scene/gltf_nodes.h"
 
 #include "renderer/core/error.h"
-#include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_marks.h"
 
 #include <fmt/format.h>
 

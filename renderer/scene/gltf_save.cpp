@@ -6,7 +6,7 @@
 #include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/pending_file.h"
-#include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_marks.h"
 #include "renderer/scene/gltf_save_material.h"
 
 #include <fmt/format.h>
@@ -182,7 +182,7 @@ private:
         node.name = instance.name.substr(slash + 1);
         node.mesh = instance.mesh;
         node.matrix = matrix_of(in_file(instance.scene_from_object));
-        if (instance.lamp) node.extras = lamp_mark();
+        node.extras = marks(instance.lamp);
         add_node(node, group(slash == std::string::npos ? "" : instance.name.substr(0, slash)));
     }
 
@@ -209,7 +209,7 @@ private:
         node.extensions["KHR_lights_punctual"] =
             tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
         use_extension("KHR_lights_punctual");
-        if (light.lamp) node.extras = lamp_mark();
+        node.extras = marks(light.lamp);
         add_node(node, -1);
     }
 

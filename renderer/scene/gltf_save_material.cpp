@@ -2,7 +2,7 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include "renderer/scene/gltf_save_material.h"
 
-#include "renderer/scene/gltf_lamp.h"
+#include "renderer/scene/gltf_marks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ public:
         // The cutoff means nothing in the other modes, and a file that states it there is not valid.
         if (m_.alpha_mode == AlphaMode::mask) entry_.alphaCutoff = m_.alpha_cutoff;
         entry_.doubleSided = m_.double_sided;
-        if (m_.lamp) entry_.extras = lamp_mark();
+        entry_.extras = marks(m_.lamp, !m_.wet);
         for (auto& [name, object] : extensions_) {
             entry_.extensions[name] = Value(object);
             use_(name);

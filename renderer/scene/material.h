@@ -90,6 +90,7 @@ struct Material {
     float alpha_cutoff = 0.5f;
     bool double_sided = false;  // decides whether the back emits; seen and lit are all surfaces from both sides
     bool lamp = false;          // its emission can be switched: see lamps.h
+    bool wet = true;            // takes water where the ground is wet
 
     bool emits() const { return !is_black(emission); }
     bool has_volume() const { return transmission > 0 && thickness > 0; }

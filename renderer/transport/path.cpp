@@ -32,6 +32,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const VertexNumbers u = sampler.vertex(bounce);
         const Vec2 lobe = u.get_2d(Draw::lobe);
         Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, lobe.y, counters);
+        if (wet_ground_) wet_ground_->wet(surface, hit.point, ray.direction, counters);
         if (surface.volume >= 0 || !media.empty()) {
             counters.count(Feature::volume);
             find_sides(*scene_, media, surface);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/transport/direct_light.h"
+#include "renderer/transport/wet_ground.h"
 
 #include <limits>
 
@@ -19,9 +20,10 @@ struct PathResult {
 
 class PathTracer {
 public:
-    /// Keeps references.
-    PathTracer(const Scene& scene, const RayScene& ray_scene, const Lights& lights, const PathSettings& settings)
-        : scene_(&scene), ray_scene_(&ray_scene), lights_(&lights), settings_(settings) {}
+    /// Keeps references. wet_ground: null where all is dry.
+    PathTracer(const Scene& scene, const RayScene& ray_scene, const Lights& lights, const PathSettings& settings,
+               const WetGround* wet_ground = nullptr)
+        : scene_(&scene), ray_scene_(&ray_scene), lights_(&lights), settings_(settings), wet_ground_(wet_ground) {}
 
     /// bounce: scattering events before this ray; it selects the random numbers and counts towards max_bounces.
     /// importance: below 1 where the path brings little to its pixel: roulette then sets in at once and is stricter.
@@ -36,6 +38,7 @@ private:
     const RayScene* ray_scene_;
     const Lights* lights_;
     PathSettings settings_;
+    const WetGround* wet_ground_;
 };
 
 }  // namespace pluvia

@@ -36,6 +36,7 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
         Ray ray = segment.ray;
         ray.t_max = segment.view_ray.t_max;
         in_rain = medium_->segment(ray, segment.view_ray.direction.z);
+        in_rain.dry = segment.dry;
     }
     if (scratch.hits.empty() && in_rain.empty()) return false;
     sample_distant(sampler, scratch);
@@ -79,7 +80,9 @@ void RainStage::find_transmissions(const RainSegment& in_rain, RainScratch& scra
 template <class Worth, class Trace>
 static void append_scattered(RainScratch& scratch, float choice, const Worth& worth, const Trace& trace) {
     const auto& [distance, weights] = scratch.scattering;
-    const float q_max = worth(*std::max_element(weights.begin(), weights.end()));
+    const float greatest = *std::max_element(weights.begin(), weights.end());
+    if (!(greatest > 0)) return;  // in the dry
+    const float q_max = worth(greatest);
     if (q_max < 1 && choice >= q_max) return;
     const Rgb light = trace();
     int place = scratch.scattered_count++;

@@ -38,6 +38,7 @@ struct CameraSegment {
     Ray view_ray;                          // the same in view coordinates; t_max = distance to the first surface
     Rgb background;                        // radiance that arrives along the ray without rain
     float background_luminance;            // its mean over the pixel as far as known, to decide what a streak is worth
+    std::span<const DryPart> dry = {};     // of the ray, where no rain falls
 };
 
 /// What rain does to a segment at one intensity.

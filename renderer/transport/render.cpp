@@ -3,6 +3,7 @@
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/sampling.h"
+#include "renderer/transport/dry_parts.h"
 #include "renderer/transport/shelter.h"
 
 #include <atomic>
@@ -27,6 +28,7 @@ struct Frame {
     const PathTracer& tracer;
     const StreakBins* bins = nullptr;  // null where there is no rain
     std::optional<RainStage> rain;
+    const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
 
     size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
 };
@@ -56,6 +58,7 @@ struct Scratch {
     CentreDepth depth;
     std::vector<RainSample> rain;
     RainScratch streaks;
+    DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<float> values;
 };
@@ -79,8 +82,10 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 
     seen.t_max = path.distance;
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
-    const CameraSegment segment{pixel, scratch.candidates, ray,
-                                seen,  path.radiance,      luminance(mean) / float(index + 1)};
+    CameraSegment segment{pixel, scratch.candidates, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    if (frame.shadow)
+        segment.dry =
+            scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, path.distance, counters);
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
     for (size_t i = 0; i < scratch.rain.size(); ++i) {
         const RainSample& rain = scratch.rain[i];
@@ -233,7 +238,14 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     const auto start = Clock::now();
     const RayScene ray_scene(scene);
     const Lights lights(scene, environment);
-    const PathTracer tracer(scene, ray_scene, lights, settings.path);
+    std::optional<RainShadow> shadow;
+    const bool fine_rain =
+        !settings.rain.intensities_mm_per_h.empty() && settings.streaks.composition == Composition::physical;
+    if (fine_rain || settings.wet.any()) shadow.emplace(scene, ray_scene, settings.rain.wind);
+    std::optional<WetGround> wet_ground;
+    const double time = view.shutter_open + view.exposure_time / 2;
+    if (settings.wet.any()) wet_ground.emplace(scene, *shadow, settings.wet, time, settings.rain.seed);
+    const PathTracer tracer(scene, ray_scene, lights, settings.path, wet_ground ? &*wet_ground : nullptr);
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
@@ -250,8 +262,8 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         bins.emplace(std::move(streaks), view);
         frame.bins = &*bins;
         // The paper's pictures have streaks in clear air.
-        const bool fine_rain = settings.streaks.composition == Composition::physical;
         if (fine_rain || rain.fog_extinction > 0) medium.emplace(view, rain, fine_rain);
+        if (fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
     report.build_seconds = seconds_since(start);

@@ -16,6 +16,7 @@ struct RenderSettings {
     PathSettings path = {};
     RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
     StreakSettings streaks = {};
+    WetSettings wet = {};
     int tile_size = 32;  // pixels; changes no byte of the picture
 };
 
