@@ -1,5 +1,6 @@
 #include "scenes/assembly.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -40,7 +41,9 @@ std::vector<int> add_meshes(Street& street, const std::string& name, const Assem
         mesh.name = name + " " + street.scene.materials[size_t(finish.material)].name;
         mesh.positions = shape.positions;
         mesh.normals = shape.normals;
-        mesh.colors = shape.colors;
+        // In steps that a byte holds, so that the file needs four bytes a vertex for them and not twelve.
+        const auto stepped = [](float v) { return std::round(255 * std::clamp(v, 0.0f, 1.0f)) / 255; };
+        for (const Rgb c : shape.colors) mesh.colors.push_back({stepped(c.r), stepped(c.g), stepped(c.b)});
         mesh.triangles = shape.triangles;
         mesh.material = finish.material;
         for (const Vec2 uv : shape.uvs)
@@ -51,13 +54,27 @@ std::vector<int> add_meshes(Street& street, const std::string& name, const Assem
     return meshes;
 }
 
-void place(Street& street, const std::string& path, const std::vector<int>& meshes,
+void place(Street& street, const std::string& path, const std::string& semantic, const std::vector<int>& meshes,
            const Transform& scene_from_object) {
-    for (const int mesh : meshes) street.scene.instances.push_back({path, instance_id(path), mesh, scene_from_object});
+    for (const int mesh : meshes)
+        street.scene.instances.push_back({path, instance_id(path), mesh, scene_from_object, false, semantic});
 }
 
-void place_once(Street& street, const std::string& path, const Assembly& assembly, const Transform& scene_from_object) {
-    place(street, path, add_meshes(street, path.substr(path.rfind('/') + 1), assembly), scene_from_object);
+void place_once(Street& street, const std::string& path, const std::string& semantic, const Assembly& assembly,
+                const Transform& scene_from_object) {
+    place(street, path, semantic, add_meshes(street, path.substr(path.rfind('/') + 1), assembly), scene_from_object);
+}
+
+void append(Assembly& assembly, const Assembly& part, const Transform& assembly_from_part) {
+    for (const auto& [finish, shape] : part.shapes) append(assembly[finish], shape, assembly_from_part);
+}
+
+Camera look_at(const std::string& name, Vec3d position, Vec3d target, double focal_length_mm, Vec3d travel,
+               float seconds) {
+    const Vec3d back = normalize(position - target), right = normalize(cross(Vec3d(0, 1, 0), back));
+    Camera camera = {name, {right, cross(back, right), back, position}, 2 * std::atan(9 / focal_length_mm), {}};
+    if (seconds > 0) camera.path = {{0, position}, {seconds, position + travel}};
+    return camera;
 }
 
 Transform rotate_y(double radians) {

@@ -45,12 +45,21 @@ int add_finish(Street& street, Material material, const MapTextures& textures = 
 /// Adds the meshes of an assembly, one per finish; the result is what place() takes, any number of times.
 std::vector<int> add_meshes(Street& street, const std::string& name, const Assembly& assembly);
 
-/// Instances of all meshes under one path, so that they share one instance id.
-void place(Street& street, const std::string& path, const std::vector<int>& meshes, const Transform& scene_from_object);
+/// Instances of all meshes under one path, so that they share one instance id. semantic: class as Cityscapes has it.
+void place(Street& street, const std::string& path, const std::string& semantic, const std::vector<int>& meshes,
+           const Transform& scene_from_object);
 
 /// add_meshes and place for an object that exists once.
-void place_once(Street& street, const std::string& path, const Assembly& assembly,
+void place_once(Street& street, const std::string& path, const std::string& semantic, const Assembly& assembly,
                 const Transform& scene_from_object = {});
+
+/// Copies all shapes of `part`; the transform may rotate, move, scale and mirror.
+void append(Assembly& assembly, const Assembly& part, const Transform& assembly_from_part);
+
+/// A camera at `position` that looks at `target` through a lens of this focal length in mm on a picture of 36 x 18 mm
+/// and moves by `travel` metres in `seconds`.
+Camera look_at(const std::string& name, Vec3d position, Vec3d target, double focal_length_mm, Vec3d travel = {},
+               float seconds = 0);
 
 /// Turn around the vertical axis, counter-clockwise as seen from above.
 Transform rotate_y(double radians);

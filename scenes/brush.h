@@ -13,13 +13,16 @@ namespace pluvia {
 using Ink = Image<float>;
 
 /// Paints one character into the box that starts at `corner` (upper left) with the given size, in pixels.
-/// name: a character's reading, see brush.cpp (yama, kawa, tsuki, ...). weight: brush width as a share of the size.
-/// Throws Error (input) for a name that is not known.
+/// name: a character's reading, see characters.cpp (yama, kawa, tsuki, ...). weight: brush width as a share of the
+/// size. Throws Error (input) for a name that is not known.
 void write_glyph(Ink& ink, const std::string& name, Vec2 corner, float size, float weight = 0.1f);
 
 /// Characters one below the other, centred around column x, from y = top to bottom, in pixels.
 void write_column(Ink& ink, const std::vector<std::string>& names, float x, float top, float bottom,
                   float weight = 0.1f);
+
+/// A line of Latin capitals with a pen of constant width, centred, in pixels.
+void write_text(Ink& ink, const std::string& text, Vec2 centre, float height, float width);
 
 /// Line of constant width between two points, in pixels, for frames and rules.
 void draw_line(Ink& ink, Vec2 from, Vec2 to, float width);

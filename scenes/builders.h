@@ -21,4 +21,11 @@ const std::vector<Builder>& builders();
 /// A narrow Japanese alley of timber houses, 3 m wide and 25 m long. Cameras: front, mid, side, low.
 Scene build_lane();
 
+/// A street of four-storey houses with shops, 18 m between walls and 112 m long.
+/// Cameras: front, far, back, sideleft, sideright, sideinner.
+Scene build_citystreet();
+
+/// A shopping street of tiled houses under signs, 7.8 m between walls and 76 m long. Cameras: camera1 to camera10.
+Scene build_japanesestreet();
+
 }  // namespace pluvia

@@ -157,20 +157,15 @@ void add_ground(Street& street, const Finishes& f) {
     Assembly block;  // bare ground under houses and gardens
     const Vec3 a = {-30, -0.13f, 40}, b = {30, -0.13f, 40}, c = {30, -0.13f, -50}, d = {-30, -0.13f, -50};
     add_quad(block[f.soil], {a, b, c, d}, {0, 0}, {60, -90});
-    place_once(street, "lane/block", block);
-}
-
-Camera look_at(const std::string& name, Vec3d position, Vec3d target, double vertical_fov) {
-    const Vec3d back = normalize(position - target), right = normalize(cross(Vec3d(0, 1, 0), back));
-    return {name, {right, cross(back, right), back, position}, vertical_fov};
+    place_once(street, "lane/block", "terrain", block);
 }
 
 void add_cameras(Scene& scene) {
-    constexpr double lens_35mm = 0.5033;  // vertical field of view of 35 mm on 36 mm x 18 mm, radians
-    scene.cameras = {look_at("front", {0.3, 1.6, 1.6}, {-0.15, 2.0, -13}, lens_35mm),
-                     look_at("mid", {0.15, 1.35, -2.6}, {-0.05, 1.95, -14}, lens_35mm),
-                     look_at("side", {1.05, 1.6, -3.6}, {-1.5, 1.75, -9.3}, 0.62),
-                     look_at("low", {-0.15, 0.4, -4.2}, {0.15, 0.8, -12}, lens_35mm)};
+    // Slow walks of 12 s: the street must pass the lens as it does for a person.
+    scene.cameras = {look_at("front", {0.3, 1.6, 1.6}, {-0.15, 2.0, -13}, 35, {-0.03, 0, -1.2}, 12),
+                     look_at("mid", {0.15, 1.35, -2.6}, {-0.05, 1.95, -14}, 35, {0, 0, -1.2}, 12),
+                     look_at("side", {1.05, 1.6, -3.6}, {-1.5, 1.75, -9.3}, 30, {0, 0, -0.8}, 12),
+                     look_at("low", {-0.15, 0.4, -4.2}, {0.15, 0.8, -12}, 35, {0.02, 0, -0.8}, 12)};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "scenes/assembly.h"
+#include "scenes/wall.h"
 
 #include <string>
 #include <vector>
@@ -22,20 +23,6 @@ struct Finishes {
     int signboard, nameplate, poster, noren_print;
 };
 Finishes add_finishes(Street& street);
-
-/// Facade frames of the four directions; start: the end of the wall at the left of someone who faces it.
-inline Transform left_wall(double x, double z_start) {
-    return {{0, 0, -1}, {0, 1, 0}, {1, 0, 0}, {x, 0, z_start}};
-}
-inline Transform right_wall(double x, double z_start) {
-    return {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}, {x, 0, z_start}};
-}
-inline Transform end_wall(double x_start, double z) {
-    return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {x_start, 0, z}};
-}
-inline Transform facing_away(double x_start, double z) {
-    return {{-1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {x_start, 0, z}};
-}
 
 /// A two-storey house of a row, seen by its front. One letter a bay, from left to right:
 /// ground: b boards with plaster above, B boards to the beam, l lattice with lit paper behind, k dark lattice,
@@ -93,16 +80,11 @@ Assembly bush(const Finishes& finishes, uint64_t seed, float height, int leaves,
 Assembly palm(const Finishes& finishes, uint64_t seed, float height);
 Assembly tree(const Finishes& finishes, uint64_t seed, float height);
 Assembly pot(const Finishes& finishes, int finish, float radius, float height);
-Assembly air_conditioner(const Finishes& finishes);
-Assembly meter_box(const Finishes& finishes);
 Assembly bamboo_fence(const Finishes& finishes, float width);  // curved guard at the foot of a wall
 Assembly bench(const Finishes& finishes);
 Assembly bucket(const Finishes& finishes);
 Assembly umbrella_stand(const Finishes& finishes);
 Assembly crates(const Finishes& finishes);
-Assembly utility_pole(const Finishes& finishes);
-/// Cable that sags by `sag` metres between two points.
-void add_cable(Assembly& assembly, const Finishes& finishes, Vec3 from, Vec3 to, float sag, float radius = 0.008f);
 
 /// Places all that hangs and stands in the lane.
 void add_furniture(Street& street, const Finishes& finishes);

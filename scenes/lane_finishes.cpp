@@ -1,6 +1,7 @@
 // Materials of the lane with their measures: albedo, roughness, luminance of what is lit.
 #include "scenes/brush.h"
 #include "scenes/lane.h"
+#include "scenes/materials.h"
 #include "scenes/noise.h"
 
 #include <algorithm>
@@ -9,32 +10,6 @@
 
 namespace pluvia::lane {
 namespace {
-
-// Linear Rec.709 colours of black bodies, largest channel 1.
-constexpr Rgb incandescent = {1, 0.40f, 0.10f};  // 2700 K
-constexpr Rgb halogen = {1, 0.46f, 0.15f};       // 3000 K
-constexpr Rgb fluorescent = {1, 0.78f, 0.62f};   // 5000 K
-
-Rgb nits(Rgb color, float cd_per_m2) {
-    return color * (cd_per_m2 / luminance(color));
-}
-
-Material matte(const char* name, Rgb base_color, float roughness = 1) {
-    Material m;
-    m.name = name;
-    m.base_color = base_color;
-    m.metallic = 0;
-    m.roughness = roughness;
-    return m;
-}
-
-Material glowing(const char* name, Rgb base_color, Rgb emission, int emission_texture) {
-    Material m = matte(name, base_color, 0.6f);
-    m.emission = emission;
-    m.emission_texture = emission_texture;
-    m.base_color_texture = emission_texture;
-    return m;
-}
 
 Material cut_out(const char* name, Rgb base_color, const MapTextures& textures) {
     Material m = matte(name, base_color);

@@ -91,7 +91,7 @@ private:
 }  // namespace
 
 void add_house(Street& street, const Finishes& finishes, const House& house) {
-    place_once(street, "lane/" + house.name, Front(finishes, house).build(), house.scene_from_facade);
+    place_once(street, "lane/" + house.name, "building", Front(finishes, house).build(), house.scene_from_facade);
 }
 
 void add_garden_wall(Street& street, const Finishes& f, const std::string& name, float width, float height,
@@ -111,7 +111,7 @@ void add_garden_wall(Street& street, const Finishes& f, const std::string& name,
     Assembly back;
     add_eave(back, f, coping, chance);
     for (const auto& [finish, shape] : back.shapes) append(a[finish], shape, turned);
-    place_once(street, "lane/" + name, a, scene_from_facade);
+    place_once(street, "lane/" + name, "wall", a, scene_from_facade);
 }
 
 }  // namespace pluvia::lane

@@ -63,8 +63,8 @@ void add_paving(Street& street, const Finishes& f, const Paving& paving) {
     add_quad(slabs[f.soil],
              {Vec3{-reach, joint, near}, {reach, joint, near}, {reach, joint, far}, {-reach, joint, far}}, {0, 0},
              {2 * reach, far - near});
-    place_once(street, "lane/" + paving.name + "_slabs", slabs, paving.scene_from_paving);
-    place_once(street, "lane/" + paving.name + "_drains", drains, paving.scene_from_paving);
+    place_once(street, "lane/" + paving.name + "_slabs", "sidewalk", slabs, paving.scene_from_paving);
+    place_once(street, "lane/" + paving.name + "_drains", "sidewalk", drains, paving.scene_from_paving);
 }
 
 }  // namespace pluvia::lane

@@ -3,6 +3,8 @@
 
 #include "renderer/core/vec.h"
 
+#include <cmath>
+
 namespace pluvia {
 
 /// Smooth value noise, 0 to 1, mean 0.5; one random value per unit cell. It repeats after period_x and period_y cells.
@@ -27,6 +29,12 @@ constexpr float smooth_step(float a, float b, float x) {
 /// 1 at x = 0, falling to 0 at |x| = width.
 constexpr float bump(float x, float width) {
     return 1 - smooth_step(0, width, x < 0 ? -x : x);
+}
+
+/// bump(x, width) around every whole number: the joints of a pattern of period 1.
+inline float joint(float x, float width) {
+    const float d = x - std::floor(x);
+    return bump(d < 0.5f ? d : 1 - d, width);
 }
 
 }  // namespace pluvia

@@ -20,8 +20,11 @@ void add_face(Shape& shape, const std::array<Vec3, 4>& p, const std::array<Vec2,
     const Vec3 normal = normalize(cross(p[2] - p[0], p[3] - p[1]));
     uint32_t index[4];
     for (int k = 0; k < 4; ++k) index[k] = add_vertex(shape, p[k], normal, uv[k], tint);
-    shape.triangles.push_back({index[0], index[1], index[2]});
-    shape.triangles.push_back({index[0], index[2], index[3]});
+    const auto add = [&](int a, int b, int c) {
+        if (length(cross(p[b] - p[a], p[c] - p[a])) > 1e-10f) shape.triangles.push_back({index[a], index[b], index[c]});
+    };
+    add(0, 1, 2);
+    add(0, 2, 3);
 }
 
 /// Face of a box or beam: uv are the metres along two of its axes, v against the grain's direction.
@@ -110,6 +113,30 @@ void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint, float bevel
         face({corner(a), corner(b), inner(b), inner(a)});
 }
 
+void add_facet(Shape& shape, const std::array<Vec3, 4>& p, const Tint& tint) {
+    const Vec3 n = normalize(cross(p[2] - p[0], p[3] - p[1]));
+    std::array<Vec2, 4> uv;
+    for (int k = 0; k < 4; ++k) {
+        const Vec3 q = p[k];
+        if (std::abs(n.y) > 0.8f)
+            uv[k] = {q.x, q.z};
+        else if (std::abs(n.z) >= std::abs(n.x))
+            uv[k] = {n.z > 0 ? q.x : -q.x, -q.y};
+        else
+            uv[k] = {n.x > 0 ? -q.z : q.z, -q.y};
+    }
+    add_face(shape, p, uv, tint);
+}
+
+void add_block(Shape& shape, Vec3 a, Vec3 b, const Tint& tint) {
+    add_facet(shape, {Vec3{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}, tint);
+    add_facet(shape, {Vec3{b.x, a.y, a.z}, {a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}}, tint);
+    add_facet(shape, {Vec3{b.x, a.y, b.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}}, tint);
+    add_facet(shape, {Vec3{a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}}, tint);
+    add_facet(shape, {Vec3{a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}}, tint);
+    add_facet(shape, {Vec3{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}}, tint);
+}
+
 void add_plank(Shape& shape, Vec3 lower, Vec3 upper, float edge, const Tint& tint) {
     const float xs[4] = {lower.x, lower.x + edge, upper.x - edge, upper.x},
                 zs[4] = {lower.z, upper.z, upper.z, lower.z};
@@ -143,6 +170,11 @@ void add_sheet(Shape& shape, int columns, int rows, const std::function<SheetPoi
 }
 
 void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sides, const Tint& tint) {
+    add_tube(shape, path, std::vector<float>(path.size(), radius), sides, tint);
+}
+
+void add_tube(Shape& shape, const std::vector<Vec3>& path, const std::vector<float>& radii, int sides,
+              const Tint& tint) {
     const auto direction = [&](size_t i) {
         return normalize(path[std::min(i + 1, path.size() - 1)] - path[i > 0 ? i - 1 : 0]);
     };
@@ -151,19 +183,21 @@ void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sid
     float along = 0;
     for (size_t i = 0; i < path.size(); ++i) {
         const Vec3 d = direction(i);
-        side = normalize(side - d * dot(side, d));  // carried along, so that the tube does not twist
+        side = side - d * dot(side, d);  // carried along, so that the tube does not twist
+        side = length_squared(side) > 1e-6f ? normalize(side) : ShadingBasis(d).tangent;
         const Vec3 other = cross(d, side);
         if (i > 0) along += length(path[i] - path[i - 1]);
         for (int k = 0; k <= sides; ++k) {
             const float phi = 2 * pi * float(k) / float(sides);
             const Vec3 n = side * std::cos(phi) + other * std::sin(phi);
-            add_vertex(shape, path[i] + n * radius, n, {phi * radius, -along}, tint);
+            add_vertex(shape, path[i] + n * radii[i], n, {phi * radii[0], -along}, tint);
         }
     }
     connect_grid(shape, first, sides, int(path.size()) - 1);
     for (const bool at_end : {false, true}) {
         const size_t ring = first + (at_end ? (path.size() - 1) * size_t(sides + 1) : 0);
         const Vec3 d = at_end ? direction(path.size() - 1) : -direction(0);
+        const float radius = at_end ? radii.back() : radii.front();
         const uint32_t base = uint32_t(shape.positions.size());
         for (int k = 0; k < sides; ++k) {
             const float phi = 2 * pi * float(k) / float(sides);
@@ -174,6 +208,21 @@ void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sid
                 shape.triangles.push_back({base, base + k, base + k + 1});
             else
                 shape.triangles.push_back({base, base + k + 1, base + k});
+        }
+    }
+}
+
+void flatten_creases(Shape& shape) {
+    for (auto& triangle : shape.triangles) {
+        const auto [a, b, c] = triangle;
+        const Vec3 n = cross(shape.positions[b] - shape.positions[a], shape.positions[c] - shape.positions[a]);
+        if (dot(n, shape.normals[a] + shape.normals[b] + shape.normals[c]) > 0) continue;
+        for (uint32_t& corner : triangle) {
+            shape.positions.push_back(shape.positions[corner]);
+            shape.normals.push_back(normalize(n));
+            shape.uvs.push_back(shape.uvs[corner]);
+            shape.colors.push_back(shape.colors[corner]);
+            corner = uint32_t(shape.positions.size()) - 1;
         }
     }
 }

@@ -34,6 +34,13 @@ void append(Shape& shape, const Shape& part, const Transform& shape_from_part);
 void add_quad(Shape& shape, const std::array<Vec3, 4>& corners, Vec2 uv_lower_left, Vec2 uv_upper_right,
               const Tint& tint = {});
 
+/// Flat quadrilateral whose texture lies as the world does: u along the horizontal and v down, or as seen from above.
+/// corners: counter-clockwise as seen from the front, the first two or last two may be one.
+void add_facet(Shape& shape, const std::array<Vec3, 4>& corners, const Tint& tint = {});
+
+/// Box of facets: bricks and stones run on from one to the next. lower and upper: opposite corners.
+void add_block(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint = {});
+
 /// Box between two corners; the grain (v of the texture) runs along its longest edge.
 /// bevel: width and depth of the chamfer around the +z face, 0 = none; less than half of every edge.
 void add_box(Shape& shape, Vec3 lower, Vec3 upper, const Tint& tint = {}, float bevel = 0);
@@ -58,6 +65,13 @@ void add_sheet(Shape& shape, int columns, int rows, const std::function<SheetPoi
 
 /// Round tube along a path of at least two different points, closed by flat ends.
 void add_tube(Shape& shape, const std::vector<Vec3>& path, float radius, int sides, const Tint& tint = {});
+
+/// The same with a radius at each point.
+void add_tube(Shape& shape, const std::vector<Vec3>& path, const std::vector<float>& radii, int sides,
+              const Tint& tint = {});
+
+/// Gives triangles that face away from their smooth normals, at creases too sharp for these, corners of their own.
+void flatten_creases(Shape& shape);
 
 /// The path with every inner corner replaced by an arc-like curve that starts and ends `radius` from the corner
 /// (at most half way to the next).

@@ -44,6 +44,22 @@ SurfaceMaps granite();
 SurfaceMaps clay();
 /// Painted or galvanised sheet metal with stains that run downwards, 1 m x 1 m; albedo 0.5 before tinting.
 SurfaceMaps sheet_metal();
+/// Bricks in running bond, 215 x 65 mm with joints of 10, 1.8 m x 1.8 m; albedo 0.25, red.
+SurfaceMaps red_brick();
+/// The same of pale buff bricks; albedo 0.42.
+SurfaceMaps pale_brick();
+/// Glazed facade tiles in running bond, 95 x 45 mm, 1.2 m x 1.2 m; albedo 0.4, to be tinted.
+SurfaceMaps wall_tiles();
+/// Dressed sandstone with its bedding and rain stains, 2 m x 2 m; albedo 0.5, to be tinted.
+SurfaceMaps sandstone();
+/// Cast paving, stained and worn, 1.6 m x 1.6 m; albedo 0.5.
+SurfaceMaps paving_stone();
+/// Asphalt with its stones worn bare, 2 m x 2 m; albedo 0.11.
+SurfaceMaps asphalt();
+/// Furrowed bark, furrows along v, 0.5 m x 0.5 m; albedo 0.13.
+SurfaceMaps bark();
+/// Zinc flowers of hot-dip galvanised steel, metallic, 0.8 m x 0.8 m.
+SurfaceMaps galvanised();
 /// Soil and moss between paving stones, 0.5 m x 0.5 m; albedo 0.07.
 SurfaceMaps soil();
 /// Woven cotton, 0.25 m x 0.25 m; albedo 0.7 before tinting.
@@ -52,6 +68,8 @@ SurfaceMaps cloth();
 SurfaceMaps tiled_roof();
 /// One leaf with its midrib up the picture, alpha 0 around it; does not tile; albedo 0.1.
 SurfaceMaps leaf();
+/// A fallen leaf, alpha 0 around it; does not tile; albedo 0.2.
+SurfaceMaps dry_leaf();
 /// Feathered palm frond, alpha 0 between the leaflets; does not tile; albedo 0.1.
 SurfaceMaps frond();
 

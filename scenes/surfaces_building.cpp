@@ -8,16 +8,6 @@
 #include <cmath>
 
 namespace pluvia {
-namespace {
-
-/// 0..1 in a band where x, of period 1, is within `width` of 0.
-float joint(float x, float width) {
-    const float d = x - std::floor(x);
-    return bump(std::min(d, 1 - d), width);
-}
-
-}  // namespace
-
 SurfaceMaps wood() {
     return paint(768, 1024, {0.6f, 2.4f}, [](float x, float y) {
         // Growth rings cut lengthwise: a slow warp of u makes flames around knots, thin lines between.

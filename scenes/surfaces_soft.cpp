@@ -42,6 +42,25 @@ SurfaceMaps leaf() {
     });
 }
 
+SurfaceMaps dry_leaf() {
+    return paint(128, 128, {0.1f, 0.1f}, [](float x, float y) {
+        const float along = 1 - y, side = std::abs(x - 0.5f);
+        const float s = std::clamp((along - 0.12f) / 0.86f, 0.0f, 1.0f);
+        const float teeth = 0.02f * std::abs(std::sin(along * 40));
+        const float half_width = 0.42f * std::pow(std::sin(pi * std::pow(s, 0.7f)), 0.7f) - teeth;
+        const bool stalk = along < 0.16f && side < 0.025f;
+        const float vein_phase = (along - 0.8f * side) * 8;
+        const float vein = std::max(bump(vein_phase - std::round(vein_phase), 0.14f) * 0.5f, bump(side, 0.03f));
+        const float patch = fractal_noise({x * 5, y * 5}, 5, 5, 4, 97);
+        Texel t;
+        t.albedo = mix(mix(Rgb(0.34f, 0.12f, 0.025f), Rgb(0.42f, 0.22f, 0.05f), patch), Rgb(0.2f, 0.09f, 0.03f), vein);
+        t.roughness = 0.7f;
+        t.height = 0.001f * vein;
+        t.alpha = side < half_width || stalk ? 1.0f : 0.0f;
+        return t;
+    });
+}
+
 SurfaceMaps frond() {
     return paint(256, 512, {0.25f, 0.5f}, [](float x, float y) {
         const float along = 1 - y, side = std::abs(x - 0.5f);

@@ -237,3 +237,48 @@ TEST_CASE("a scene with a mesh without triangles is refused by name") {
     CHECK_THROWS_WITH_AS(save_glb(scene, folder / "a.glb"), doctest::Contains("mesh \"bare\""), Error);
     CHECK_FALSE(std::filesystem::exists(folder / "a.glb"));
 }
+
+TEST_CASE("a camera's path is an animation in the file: it is where its keys say, with their velocity") {
+    const TemporaryFolder folder;
+    Scene scene = scene_of_everything();
+    scene.origin = {0, 0, 0};
+    Camera& eye = scene.cameras[0];
+    const Vec3d start = eye.scene_from_camera.translation;
+    eye.path = {{0, start}, {2, start + Vec3d(0, 0, -3)}};
+    save_glb(scene, folder / "walk.glb");
+    GltfContents contents;
+    const Scene back = load_gltf(folder / "walk.glb", {.time = 1}, &contents);
+    REQUIRE(back.cameras.size() == 1);
+    const Transform& placed = back.cameras[0].scene_from_camera;
+    // Keys are in single precision; the rotation is one of doubles.
+    CHECK(length(placed.translation + back.origin - (start + Vec3d(0, 0, -1.5))) < 1e-6);
+    CHECK(length(placed.column_z - eye.scene_from_camera.column_z) < 1e-12);
+    REQUIRE(contents.camera_velocities.size() == 1);
+    CHECK(length(contents.camera_velocities[0] - Vec3d(0, 0, -1.5)) < 1e-5);
+    REQUIRE(contents.animations.size() == 1);
+    CHECK(contents.animations[0].duration == 2);
+}
+
+TEST_CASE("classes come back from the extras of nodes, and colours that bytes hold exactly come back exactly") {
+    const TemporaryFolder folder;
+    Scene scene = scene_of_everything();
+    scene.instances[0].semantic = scene.instances[1].semantic = "building";
+    scene.instances[2].semantic = "traffic sign";
+    scene.instances[2].lamp = true;
+    Mesh& bare = scene.meshes[1];
+    bare.colors = {Rgb(0), {float(1) / 255, float(128) / 255, float(254) / 255}, Rgb(1)};
+    save_glb(scene, folder / "classes.glb");
+    const Scene back = load_gltf(folder / "classes.glb");
+    REQUIRE(back.instances.size() == 3);
+    for (const Instance& instance : back.instances) {
+        CAPTURE(instance.name);
+        CHECK(instance.semantic == (instance.name == "alone" ? "traffic sign" : "building"));
+        CHECK(instance.lamp == (instance.name == "alone"));
+    }
+    for (const Mesh& mesh : back.meshes)
+        if (mesh.name == "bare") CHECK(mesh.colors == bare.colors);
+    // Objects of one class are counted.
+    const std::string bytes = read_file(folder / "classes.glb");
+    CHECK(bytes.find(R"("instance":1,"semantic":"building")") != std::string::npos);
+    CHECK(bytes.find(R"("instance":0,"pluvia":{"lamp":true},"semantic":"traffic sign")") != std::string::npos);
+}

@@ -68,12 +68,12 @@ private:
         const Parts parts = read_once(node, std::move(deformation));
         const auto instancing = node.extensions.find("EXT_mesh_gpu_instancing");
         if (instancing == node.extensions.end()) {
-            add_instances(entry.path, parts, placed, entry.is_lamp);
+            add_instances(entry, entry.path, parts, placed);
             return;
         }
         const auto copies = read_copies(instancing->second, node_where(entry.path));
         for (size_t i = 0; i < copies.size(); ++i)
-            add_instances(fmt::format("{}[{}]", entry.path, i), parts, placed * copies[i], entry.is_lamp);
+            add_instances(entry, fmt::format("{}[{}]", entry.path, i), parts, placed * copies[i]);
     }
 
     Vec3d skin_origin(int skin) const {
@@ -93,10 +93,12 @@ private:
         return found->second;
     }
 
-    void add_instances(const std::string& path, const Parts& parts, const Transform& scene_from_object, bool is_lamp) {
+    void add_instances(const PlacedNode& entry, const std::string& path, const Parts& parts,
+                       const Transform& scene_from_object) {
         for (int part = 0; part < parts.count; ++part) {
-            budget_.spend(sizeof(Instance) + path.size());
-            scene_.instances.push_back({path, instance_id(path), parts.first + part, scene_from_object, is_lamp});
+            budget_.spend(sizeof(Instance) + path.size() + entry.semantic.size());
+            scene_.instances.push_back(
+                {path, instance_id(path), parts.first + part, scene_from_object, entry.is_lamp, entry.semantic});
         }
     }
 
@@ -175,7 +177,7 @@ private:
         if (lens.aspectRatio < 0)
             throw input_error(where, fmt::format("its camera's aspectRatio is out of range (got {}, expected above 0)",
                                                  lens.aspectRatio));
-        scene_.cameras.push_back({source.name.empty() ? entry.name : source.name, scene_from_node, lens.yfov});
+        scene_.cameras.push_back({source.name.empty() ? entry.name : source.name, scene_from_node, lens.yfov, {}});
         return true;
     }
 

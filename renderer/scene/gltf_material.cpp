@@ -1,6 +1,6 @@
 #include "renderer/scene/gltf_material.h"
 
-#include "renderer/scene/gltf_marks.h"
+#include "renderer/scene/gltf_extras.h"
 #include "renderer/scene/gltf_texture.h"
 #include "renderer/scene/gltf_value.h"
 

@@ -1,7 +1,7 @@
 #include "renderer/scene/gltf_nodes.h"
 
 #include "renderer/core/error.h"
-#include "renderer/scene/gltf_marks.h"
+#include "renderer/scene/gltf_extras.h"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ public:
 
     /// parent_path: empty for a root. depth: number of nodes above.
     void walk(int index, const Transform& scene_from_parent, const std::string& parent_path, bool parent_is_lamp,
-              int depth = 0) {
+              const std::string& parent_semantic, int depth = 0) {
         if (index < 0 || index >= int(nodes_.size()))
             throw input_error(where_,
                               fmt::format("node does not exist (got {}, expected below {})", index, nodes_.size()));
@@ -60,9 +60,10 @@ public:
                               "its transform is not finite (expected numbers)");
         tree_.scene_from_node[index] = scene_from_node;
         const bool is_lamp = parent_is_lamp || is_marked_lamp(node.extras);
-        tree_.nodes.push_back({index, path, name, is_lamp});
+        const std::string own = semantic_class(node.extras), &semantic = own.empty() ? parent_semantic : own;
+        tree_.nodes.push_back({index, path, name, is_lamp, semantic});
         for (const int child : node.children) {
-            walk(child, scene_from_node, path, is_lamp, depth + 1);
+            walk(child, scene_from_node, path, is_lamp, semantic, depth + 1);
         }
     }
     NodeTree tree() && { return std::move(tree_); }
@@ -79,7 +80,7 @@ private:
 NodeTree place_nodes(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots,
                      const std::string& where) {
     Walk walk(nodes, where);
-    for (const int root : roots) walk.walk(root, Transform(), "", false);
+    for (const int root : roots) walk.walk(root, Transform(), "", false, "");
     return std::move(walk).tree();
 }
 

@@ -11,10 +11,11 @@
 namespace pluvia {
 
 struct PlacedNode {
-    int node;          // index in the file
-    std::string path;  // names from the root down, e.g. "street/lamp_3"
-    std::string name;  // the last of them
-    bool is_lamp;      // marked as a lamp, or below a node that is
+    int node;              // index in the file
+    std::string path;      // names from the root down, e.g. "street/lamp_3"
+    std::string name;      // the last of them
+    bool is_lamp;          // marked as a lamp, or below a node that is
+    std::string semantic;  // its class, or that of the nearest node above that has one
 };
 
 struct NodeTree {

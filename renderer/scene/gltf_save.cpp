@@ -6,13 +6,15 @@
 #include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/pending_file.h"
-#include "renderer/scene/gltf_marks.h"
+#include "renderer/scene/gltf_extras.h"
 #include "renderer/scene/gltf_save_material.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -28,6 +30,37 @@ std::vector<double> numbers(Rgb c) {
 std::vector<double> matrix_of(const Transform& t) {  // column-major
     return {t.column_x.x, t.column_x.y, t.column_x.z, 0, t.column_y.x,    t.column_y.y,    t.column_y.z,    0,
             t.column_z.x, t.column_z.y, t.column_z.z, 0, t.translation.x, t.translation.y, t.translation.z, 1};
+}
+
+/// Rotation of orthonormal columns as (x, y, z, w). Source: Shepperd 1978, by the largest of the four components.
+std::vector<double> quaternion(const Transform& t) {
+    const Vec3d x = t.column_x, y = t.column_y, z = t.column_z;
+    std::array<double, 4> q;
+    const double trace = x.x + y.y + z.z, largest = std::max({x.x, y.y, z.z, trace});
+    if (largest == trace)
+        q = {y.z - z.y, z.x - x.z, x.y - y.x, 1 + trace};
+    else if (largest == x.x)
+        q = {1 + x.x - y.y - z.z, x.y + y.x, z.x + x.z, y.z - z.y};
+    else if (largest == y.y)
+        q = {x.y + y.x, 1 - x.x + y.y - z.z, y.z + z.y, z.x - x.z};
+    else
+        q = {z.x + x.z, y.z + z.y, 1 - x.x - y.y + z.z, x.y - y.x};
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+}
+
+/// Vertex colours as bytes where these hold them exactly, else nothing.
+std::vector<Rgba8> as_bytes(const Mesh& mesh) {
+    std::vector<Rgba8> bytes;
+    if (!mesh.alphas.empty()) return bytes;
+    bytes.reserve(mesh.colors.size());
+    for (const Rgb c : mesh.colors) {
+        const auto byte = [](float v) { return v >= 0 && v <= 1 ? uint8_t(std::lround(255 * v)) : uint8_t(0); };
+        const Rgba8 b = {byte(c.r), byte(c.g), byte(c.b), 0};
+        if (Rgb(float(b.r) / 255, float(b.g) / 255, float(b.b) / 255) != c) return {};
+        bytes.push_back(b);
+    }
+    return bytes;
 }
 
 /// Gathers the file's parts; everything binary goes into its one buffer.
@@ -79,10 +112,33 @@ private:
     }
 
     /// components: floats per element, which are flattened by the caller.
-    int add_floats(const std::vector<float>& values, int components) {
+    int add_floats(const std::vector<float>& values, int components, int target = TINYGLTF_TARGET_ARRAY_BUFFER) {
         constexpr int types[] = {0, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
-        return add_accessor(std::span(values), TINYGLTF_COMPONENT_TYPE_FLOAT, types[components],
-                            TINYGLTF_TARGET_ARRAY_BUFFER, values.size() / size_t(components));
+        return add_accessor(std::span(values), TINYGLTF_COMPONENT_TYPE_FLOAT, types[components], target,
+                            values.size() / size_t(components));
+    }
+
+    /// Three bytes and one of padding a vertex.
+    int add_colors(const std::vector<Rgba8>& colors) {
+        const int accessor = add_accessor(std::span(colors), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC3,
+                                          TINYGLTF_TARGET_ARRAY_BUFFER, colors.size());
+        model_.accessors[accessor].normalized = true;
+        model_.bufferViews[model_.accessors[accessor].bufferView].byteStride = sizeof(Rgba8);
+        return accessor;
+    }
+
+    int add_indices(const Mesh& mesh) {
+        const size_t count = 3 * mesh.triangles.size();
+        // The largest 16-bit index is left out: some systems restart strips at it.
+        if (mesh.positions.size() > 0xffff)
+            return add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
+                                TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, count);
+        std::vector<uint16_t> narrow;
+        narrow.reserve(count);
+        for (const auto& triangle : mesh.triangles)
+            for (const uint32_t vertex : triangle) narrow.push_back(uint16_t(vertex));
+        return add_accessor(std::span<const uint16_t>(narrow), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                            TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, count);
     }
 
     void use_extension(const std::string& name) {
@@ -147,10 +203,11 @@ private:
         if (!uv.empty()) primitive.attributes["TEXCOORD_0"] = add_floats(uv, 2);
         if (!uv1.empty()) primitive.attributes["TEXCOORD_1"] = add_floats(uv1, 2);
         if (!t.empty()) primitive.attributes["TANGENT"] = add_floats(t, 4);
-        if (!c.empty()) primitive.attributes["COLOR_0"] = add_floats(c, mesh.alphas.empty() ? 3 : 4);
-        primitive.indices =
-            add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                         TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 3 * mesh.triangles.size());
+        if (const auto bytes = as_bytes(mesh); !bytes.empty())
+            primitive.attributes["COLOR_0"] = add_colors(bytes);
+        else if (!c.empty())
+            primitive.attributes["COLOR_0"] = add_floats(c, mesh.alphas.empty() ? 3 : 4);
+        primitive.indices = add_indices(mesh);
         tinygltf::Mesh entry;
         entry.name = mesh.name;
         entry.primitives.push_back(primitive);
@@ -183,7 +240,14 @@ private:
         node.mesh = instance.mesh;
         node.matrix = matrix_of(in_file(instance.scene_from_object));
         node.extras = marks(instance.lamp);
+        if (!instance.semantic.empty()) mark_semantic(node.extras, instance.semantic, number_in_class(instance));
         add_node(node, group(slash == std::string::npos ? "" : instance.name.substr(0, slash)));
+    }
+
+    /// Objects of a class are counted from 0 in the order in which they first appear; the parts of one share a number.
+    int number_in_class(const Instance& instance) {
+        auto& numbers = numbers_in_class_[instance.semantic];
+        return numbers.try_emplace(instance.name, int(numbers.size())).first->second;
     }
 
     void add_light(const PunctualLight& light) {
@@ -224,8 +288,40 @@ private:
         tinygltf::Node node;
         node.name = camera.name;
         node.camera = int(model_.cameras.size()) - 1;
-        node.matrix = matrix_of(in_file(camera.scene_from_camera));
-        add_node(node, -1);
+        if (camera.path.empty()) {
+            node.matrix = matrix_of(in_file(camera.scene_from_camera));
+            add_node(node, -1);
+            return;
+        }
+        // Nodes that move may not have a matrix.
+        const Transform placed = in_file(camera.scene_from_camera);
+        node.translation = {placed.translation.x, placed.translation.y, placed.translation.z};
+        node.rotation = quaternion(placed);
+        add_path(camera, add_node(node, -1));
+    }
+
+    void add_path(const Camera& camera, int node) {
+        std::vector<float> times, positions;
+        for (const CameraKey& key : camera.path) {
+            const Vec3d p = key.position + scene_.origin;
+            times.push_back(key.time);
+            positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
+        }
+        tinygltf::AnimationSampler sampler;
+        sampler.input = add_floats(times, 1, 0);
+        sampler.output = add_floats(positions, 3, 0);
+        sampler.interpolation = "LINEAR";
+        model_.accessors[sampler.input].minValues = {*std::min_element(times.begin(), times.end())};
+        model_.accessors[sampler.input].maxValues = {*std::max_element(times.begin(), times.end())};
+        tinygltf::AnimationChannel channel;
+        channel.sampler = 0;
+        channel.target_node = node;
+        channel.target_path = "translation";
+        tinygltf::Animation entry;
+        entry.name = camera.name;
+        entry.samplers = {sampler};
+        entry.channels = {channel};
+        model_.animations.push_back(entry);
     }
 
     Transform in_file(Transform scene_from_object) const {
@@ -236,6 +332,7 @@ private:
     const Scene& scene_;
     tinygltf::Model model_;
     std::map<std::string, int> groups_;
+    std::map<std::string, std::map<std::string, int>> numbers_in_class_;  // by class, then by path
 };
 
 }  // namespace

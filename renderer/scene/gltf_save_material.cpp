@@ -2,7 +2,7 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include "renderer/scene/gltf_save_material.h"
 
-#include "renderer/scene/gltf_marks.h"
+#include "renderer/scene/gltf_extras.h"
 
 #include <algorithm>
 #include <cmath>

@@ -42,7 +42,8 @@ struct Instance {
     uint32_t id = 0;   // hash of the path, stable across frames
     int mesh = -1;
     Transform scene_from_object;
-    bool lamp = false;  // what it emits can be switched: see lamps.h
+    bool lamp = false;          // what it emits can be switched: see lamps.h
+    std::string semantic = {};  // name of its class as Cityscapes has it, e.g. "traffic sign"; empty = none given
 };
 
 struct PunctualLight {
@@ -56,10 +57,19 @@ struct PunctualLight {
     bool lamp = false;                                      // it can be switched: see lamps.h
 };
 
+/// Where a camera is at a time in seconds.
+struct CameraKey {
+    float time = 0;
+    Vec3d position;
+};
+
 struct Camera {
     std::string name;
     Transform scene_from_camera;  // looks along -z, +y up; scale is ignored
     double vertical_fov = 0.6;    // radians, holds whatever the picture's shape
+    /// Straight from key to key, which a file holds as an animation. A scene that was read is that of one moment: its
+    /// cameras have none.
+    std::vector<CameraKey> path = {};
 };
 
 struct Scene {

@@ -50,7 +50,11 @@ public:
         add(m.positions), add(m.normals), add(m.uvs), add(m.uvs1), add(m.tangents), add(m.colors), add(m.alphas);
         add(m.triangles), add(m.material);
     }
-    void add(const Instance& i) { add(i.id), add(i.mesh), add(i.scene_from_object), add(i.lamp); }
+    void add(const Instance& i) {
+        add(i.id), add(i.mesh), add(i.scene_from_object), add(i.lamp);
+        add(i.semantic.size());
+        for (const char c : i.semantic) add(c);
+    }
     void add(const PunctualLight& l) {
         add(l.kind), add(l.intensity), add(l.position), add(l.direction);
         add(l.inner_cone_angle), add(l.outer_cone_angle), add(l.lamp);

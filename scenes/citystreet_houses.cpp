@@ -1,0 +1,155 @@
+#include "scenes/citystreet_houses.h"
+
+namespace pluvia {
+
+TownHouse city_house(char letter) {
+    switch (letter) {
+        case 'A':  // red brick over a bookshop
+            return {.width = 8.4f,
+                    .ground = "SES",
+                    .upper = "wwww",
+                    .wall = "red_brick",
+                    .base = "limestone",
+                    .trim = "limestone",
+                    .cornice = "green_paint",
+                    .window = {.frame = "cream_paint"},
+                    .sign = "BOOKS",
+                    .shop_paint = "green_paint",
+                    .awning = true,
+                    .awning_color = {0.05f, 0.16f, 0.1f},
+                    .lit = 0.3f};
+        case 'B':  // brownstone with a stoop
+            return {.width = 7.2f,
+                    .ground = "wdw",
+                    .upper = "www",
+                    .ground_height = 4.5f,
+                    .storeys = {3.7f, 3.4f, 3.1f},
+                    .wall = "brownstone",
+                    .base = "brownstone",
+                    .trim = "brownstone",
+                    .cornice = "brownstone",
+                    .window = {.frame = "black_paint", .columns = 2, .rows = 1},
+                    .hoods = true,
+                    .lit = 0.3f};
+        case 'C':  // grey stone with tall windows and a café in arches
+            return {.width = 9.6f,
+                    .ground = "AaAA",
+                    .upper = "wpw",
+                    .ground_height = 4.2f,
+                    .storeys = {3.6f, 3.4f},
+                    .wall = "orange_brick",
+                    .base = "limestone",
+                    .trim = "limestone",
+                    .cornice = "limestone",
+                    .window = {.frame = "white_paint", .columns = 2, .rows = 2},
+                    .quoins = true,
+                    .sign = "COFFEE & CAKE",
+                    .shop_paint = "limestone",
+                    .lit = 0.35f};
+        case 'D':  // dark brick, arched windows, fire escape
+            return {.width = 8.8f,
+                    .ground = "SESb",
+                    .upper = "wwww",
+                    .ground_height = 4.4f,
+                    .storeys = {3.5f, 3.4f, 3.3f, 3.1f},
+                    .wall = "dark_red_brick",
+                    .base = "grey_stone",
+                    .trim = "brownstone",
+                    .cornice = "black_paint",
+                    .window = {.frame = "green_paint", .columns = 2, .rows = 1},
+                    .arch = 0.22f,
+                    .fire_escape = true,
+                    .sign = "HARDWARE",
+                    .shop_paint = "red_paint",
+                    .lit = 0.25f};
+        case 'E':  // grey brick with wide shop windows
+            return {.width = 10.2f,
+                    .ground = "SSES",
+                    .upper = "ppp",
+                    .ground_height = 4.4f,
+                    .storeys = {3.8f, 3.6f, 3.4f},
+                    .wall = "grey_brick",
+                    .base = "grey_stone",
+                    .trim = "limestone",
+                    .cornice = "grey_paint",
+                    .window = {.frame = "grey_paint", .columns = 2, .rows = 3, .sashes = false},
+                    .sign = "BAKERY",
+                    .shop_paint = "blue_paint",
+                    .awning = true,
+                    .awning_color = {0.55f, 0.33f, 0.06f},
+                    .cafe = true,
+                    .lit = 0.35f};
+        case 'F':  // limestone with quoins
+            return {.width = 9.0f,
+                    .ground = "wdww",
+                    .upper = "wwww",
+                    .ground_height = 4.3f,
+                    .storeys = {3.8f, 3.5f, 3.3f},
+                    .wall = "limestone",
+                    .base = "limestone",
+                    .trim = "limestone",
+                    .cornice = "limestone",
+                    .window = {.frame = "white_paint"},
+                    .hoods = true,
+                    .quoins = true,
+                    .lit = 0.3f};
+        case 'G':  // buff brick, segmental arches
+            return {.width = 7.6f,
+                    .ground = "SE",
+                    .upper = "www",
+                    .ground_height = 4.2f,
+                    .storeys = {3.4f, 3.3f, 3.1f},
+                    .wall = "buff_brick",
+                    .base = "brownstone",
+                    .trim = "brownstone",
+                    .cornice = "brownstone",
+                    .window = {.frame = "cream_paint", .columns = 2, .rows = 2},
+                    .arch = 0.28f,
+                    .sign = "FLOWERS",
+                    .shop_paint = "black_paint",
+                    .lit = 0.3f};
+        case 'H':  // brown brick with a stoop, quoins
+            return {.width = 7.0f,
+                    .ground = "dww",
+                    .upper = "www",
+                    .ground_height = 4.6f,
+                    .storeys = {3.5f, 3.3f, 3.1f, 2.9f},
+                    .wall = "brown_brick",
+                    .base = "grey_stone",
+                    .trim = "grey_stone",
+                    .cornice = "green_paint",
+                    .window = {.frame = "white_paint", .columns = 3, .rows = 2},
+                    .lit = 0.3f};
+        case 'I':  // stucco
+            return {.width = 7.8f,
+                    .ground = "SES",
+                    .upper = "www",
+                    .ground_height = 4.1f,
+                    .storeys = {3.4f, 3.2f},
+                    .wall = "pale_stucco",
+                    .base = "pale_stucco",
+                    .trim = "limestone",
+                    .cornice = "limestone",
+                    .window = {.frame = "black_paint", .columns = 2, .rows = 2},
+                    .hoods = true,
+                    .sign = "TAILOR",
+                    .shop_paint = "black_paint",
+                    .awning = true,
+                    .awning_color = {0.1f, 0.1f, 0.12f},
+                    .lit = 0.3f};
+        default:  // red brick, stoop
+            return {.width = 7.4f,
+                    .ground = "wwd",
+                    .upper = "www",
+                    .ground_height = 4.5f,
+                    .storeys = {3.6f, 3.4f, 3.2f},
+                    .wall = "red_brick",
+                    .base = "brownstone",
+                    .trim = "brownstone",
+                    .cornice = "black_paint",
+                    .window = {.frame = "white_paint", .columns = 1, .rows = 1},
+                    .lit = 0.3f};
+    }
+}
+
+}  // namespace pluvia

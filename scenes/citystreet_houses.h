@@ -1,0 +1,11 @@
+// The kinds of houses of the city street.
+#pragma once
+
+#include "scenes/facade.h"
+
+namespace pluvia {
+
+/// One of ten kinds, 'A' to 'J'.
+TownHouse city_house(char letter);
+
+}  // namespace pluvia
