@@ -10,6 +10,7 @@ void add_scenes_command(CLI::App& app);
 void add_inspect_command(CLI::App& app);
 void add_validate_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
+void add_learn_command(CLI::App& app);
 
 /// The whole program but for its process: parses, runs and reports errors on stderr. Returns the exit code.
 int run(int argc, const char* const* argv);

@@ -1,5 +1,5 @@
 // Lamps: what of a scene shines by switch. A scene is read with its lamps on; by day they are switched off.
-// Marked are materials, instances and punctual lights; gltf_marks.h has the mark as a file carries it.
+// Marked are materials, instances and punctual lights; gltf_extras.h has the mark as a file carries it.
 #pragma once
 
 #include "renderer/scene/scene.h"

@@ -1,0 +1,50 @@
+#include "tools/learn/learn_commands.h"
+#include "tools/learning/model_config.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+
+namespace pluvia {
+namespace {
+
+void print_part(const SafetensorsFile& file, const char* name, const char* prefix) {
+    int64_t values = 0, tensors = 0;
+    for (const auto& [key, shape] : shapes_below(file.entries(), prefix)) ++tensors, values += element_count(shape);
+    if (tensors > 0) std::cout << fmt::format("{:<14}{} tensors, {} values\n", name, tensors, values);
+}
+
+std::string unet_text(const UNetConfig& u) {
+    return fmt::format("{} channels x {}, {} blocks a level, attention at 1/{}{}", u.channels,
+                       fmt::join(u.multipliers, ","), u.res_blocks, fmt::join(u.attention_factors, ", 1/"),
+                       u.context_channels > 0 ? fmt::format(", guide of {} channels", u.context_channels) : "");
+}
+
+void info_command(const std::string& path) {
+    const SafetensorsFile file(path);
+    const ModelConfig c = model_config(file);
+    std::cout << fmt::format("model         {}\n", model_kind_name(c.kind));
+    print_part(file, "UNet", unet_prefix);
+    std::cout << "              " << unet_text(c.unet) << "\n";
+    print_part(file, "guiding model", guide_prefix);
+    print_part(file, "first stage", first_stage_prefix);
+    if (c.first_stage)
+        std::cout << fmt::format("              {} channels x {}, {} codes, cells of {} pixels\n",
+                                 c.first_stage->channels, fmt::join(c.first_stage->multipliers, ","),
+                                 c.first_stage->codes, c.first_stage->factor());
+    for (const auto& [key, text] : c.metadata) std::cout << fmt::format("{:<14}{}\n", key, text.substr(0, 2000));
+    for (const std::string& notice : c.notices) std::cout << "notice        " << notice << "\n";
+}
+
+}  // namespace
+
+void add_learn_info_command(CLI::App& learn) {
+    auto* command = learn.add_subcommand("info", "what a file of weights holds; checks it without loading a network");
+    auto path = std::make_shared<std::string>();
+    command->add_option("model", *path, "weights, .safetensors")->required();
+    command->footer("Example:\n  pluvia learn info model.safetensors");
+    command->callback([path] { info_command(*path); });
+}
+
+}  // namespace pluvia

@@ -1,0 +1,21 @@
+// Pictures in folders, and which of them belong together: those of the same name, whatever the extension.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pluvia {
+
+/// Pictures by their name without extension. path: a folder (its sub-folders are not looked into) or one file.
+/// Throws Error (input) when there is none, or two have the same name.
+std::map<std::string, std::string> pictures_in(const std::string& path);
+
+/// A clean picture and a mask, and the name that their result has.
+struct PicturePair {
+    std::string name, background, mask;
+};
+/// A single picture on one side goes with all of the other. Throws Error (input) naming one without partner.
+std::vector<PicturePair> pair_pictures(const std::string& backgrounds, const std::string& masks);
+
+}  // namespace pluvia
