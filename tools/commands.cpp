@@ -22,6 +22,7 @@ int run(int argc, const char* const* argv) {
     add_validate_command(app);
     add_sky_command(app);
     add_learn_command(app);
+    add_dataset_command(app);
     return parse_and_run(app, argc, argv);
 }
 

@@ -27,6 +27,7 @@ void catch_interrupts() {
     action.sa_flags = SA_RESETHAND;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    sigaction(SIGUSR1, &action, nullptr);
 }
 
 Progress::Style Progress::style_from_name(const std::string& name) {

@@ -1,0 +1,58 @@
+#include "tools/dataset/config_tree.h"
+
+#include "renderer/core/error.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace pluvia {
+namespace {
+
+ConfigNode converted(const YAML::Node& node, const std::string& path) {
+    ConfigNode result;
+    result.line = node.Mark().line + 1;
+    switch (node.Type()) {
+        case YAML::NodeType::Scalar:
+            result.kind = ConfigNode::Kind::scalar;
+            result.text = node.Scalar();
+            break;
+        case YAML::NodeType::Sequence:
+            result.kind = ConfigNode::Kind::list;
+            for (const YAML::Node& item : node) result.items.push_back(converted(item, path));
+            break;
+        case YAML::NodeType::Map:
+            result.kind = ConfigNode::Kind::map;
+            for (const auto& entry : node) {
+                const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "?";
+                const int line = entry.first.Mark().line + 1;
+                // The library keeps the first of two and is silent about the second.
+                for (const ConfigEntry& before : result.entries)
+                    if (before.key == key)
+                        throw usage_error(fmt::format("{}:{}", path, line),
+                                          fmt::format("the key \"{}\" is there already, on line {}", key, before.line));
+                result.entries.push_back({key, line, converted(entry.second, path)});
+            }
+            break;
+        default:
+            break;
+    }
+    return result;
+}
+
+}  // namespace
+
+ConfigNode read_config_tree(const std::string& path) {
+    std::ifstream file(path);
+    if (!file) throw input_error(path, fmt::format("cannot be opened ({})", std::strerror(errno)));
+    try {
+        return converted(YAML::Load(file), path);
+    } catch (const YAML::Exception& e) {
+        throw usage_error(fmt::format("{}:{}", path, e.mark.line + 1), fmt::format("is not YAML ({})", e.msg));
+    }
+}
+
+}  // namespace pluvia

@@ -1,0 +1,80 @@
+#include "tools/dataset/item.h"
+
+#include "renderer/transport/layers.h"
+#include "tools/dataset/file_hash.h"
+#include "tools/option_check.h"
+
+#include <fmt/format.h>
+
+namespace pluvia {
+
+std::string DatasetItem::id() const {
+    return fmt::format("{}/{}/frame_{:04}", scene_name, camera, frame);
+}
+
+std::string DatasetItem::clean_path(const std::string& kind, const std::string& extension) const {
+    return fmt::format("clean/{}/{}/{}/frame_{:04}.{}", scene_name, camera, kind, frame, extension);
+}
+
+std::string DatasetItem::rainy_path(double intensity, const std::string& kind, const std::string& extension) const {
+    return fmt::format("rainy/{}/{}/{}/{}/{}/frame_{:04}.{}", scene_name, camera, intensity_folder(intensity),
+                       wind_name(options.wind), kind, frame, extension);
+}
+
+std::string wind_name(const std::vector<double>& wind) {
+    std::string name = fmt::format("wind_{:g}", wind[0]);
+    if (wind[1] != 0 || wind[2] != 0) name += fmt::format("_{:g}_{:g}", wind[1], wind[2]);
+    return name;
+}
+
+std::string intensity_folder(double intensity) {
+    std::string text = fmt::format("{}", intensity);
+    if (const size_t point = text.find('.'); point != std::string::npos) text[point] = 'p';
+    return text + "mm";
+}
+
+std::vector<DatasetItem> dataset_items(const DatasetConfig& config) {
+    std::vector<DatasetItem> items;
+    for (size_t s = 0; s < config.scenes.size(); ++s) {
+        const DatasetScene& scene = config.scenes[s];
+        for (const bool is_test : {false, true})
+            for (const std::string& camera : is_test ? scene.test : scene.train)
+                for (int frame = 0; frame < scene.frames; ++frame) {
+                    DatasetItem item{s, scene.name, camera, is_test, frame, scene.options};
+                    item.options.camera = camera;
+                    item.options.frame = frame;
+                    item.options.light.hour = config.hours.empty() ? 24.0 * frame / scene.frames
+                                                                   : config.hours[size_t(frame) % config.hours.size()];
+                    const Vec3d wind = config.winds[size_t(frame) % config.winds.size()];
+                    item.options.wind = {wind.x, wind.y, wind.z};
+                    // Noise of its own: the same in every frame would be learnt as a part of pictures.
+                    item.options.seed = hash_text(fmt::format("{}/{}", scene.options.seed, item.id())) >> 32;
+                    item.options.depth_encoding = "hri";
+                    items.push_back(std::move(item));
+                }
+    }
+    return items;
+}
+
+std::string Shard::label() const {
+    return fmt::format("{}-of-{}", number, count);
+}
+
+Shard Shard::parse(const std::string& text) {
+    Shard shard;
+    const size_t slash = text.find('/');
+    if (slash == std::string::npos || !parse_number(std::string_view(text).substr(0, slash), shard.number) ||
+        !parse_number(std::string_view(text).substr(slash + 1), shard.count) || shard.number < 1 ||
+        shard.number > shard.count)
+        fail_option("shard", '"' + text + '"', "I/N with I from 1 to N");
+    return shard;
+}
+
+std::vector<DatasetItem> shard_items(const std::vector<DatasetItem>& items, Shard shard) {
+    const auto begin = [&](int number) {
+        return items.begin() + long(items.size() * size_t(number) / size_t(shard.count));
+    };
+    return {begin(shard.number - 1), begin(shard.number)};
+}
+
+}  // namespace pluvia

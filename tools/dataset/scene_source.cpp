@@ -1,0 +1,75 @@
+#include "tools/dataset/scene_source.h"
+
+#include "renderer/core/error.h"
+#include "renderer/scene/gltf.h"
+#include "scenes/builders.h"
+#include "tools/dataset/suggestion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace pluvia {
+namespace {
+
+std::vector<std::string> builder_names() {
+    std::vector<std::string> names;
+    for (const Builder& builder : builders()) names.push_back(builder.name);
+    return names;
+}
+
+const Builder* find_builder(const std::string& name) {
+    const auto found =
+        std::find_if(builders().begin(), builders().end(), [&](const Builder& b) { return b.name == name; });
+    return found == builders().end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void require_scene(const DatasetConfig& config, size_t index) {
+    const DatasetScene& scene = config.scenes[index];
+    if (scene.is_built && !find_builder(scene.source))
+        throw usage_error(config.path, fmt::format("there is no scene \"{}\" (expected {}, or a glTF file)",
+                                                   scene.source, fmt::join(builder_names(), ", ")));
+    std::error_code ignored;
+    if (!scene.is_built && !std::filesystem::exists(scene.source, ignored))
+        throw usage_error(config.path,
+                          fmt::format("there is no file {} for the scene \"{}\"", scene.source, scene.name));
+}
+
+std::string SceneSource::hash(size_t index) {
+    const DatasetScene& scene = config_->scenes[index];
+    const FrameScene& loaded = at(index, scene.options);
+    for (const auto* cameras : {&scene.train, &scene.test})
+        for (const std::string& camera : *cameras) {
+            const auto& known = loaded.scene.cameras;
+            if (std::any_of(known.begin(), known.end(), [&](const Camera& c) { return c.name == camera; })) continue;
+            std::vector<std::string> names;
+            for (const Camera& c : known) names.push_back(c.name);
+            const std::string near = nearest_word(camera, names);
+            throw usage_error(config_->path,
+                              fmt::format("the scene \"{}\" has no camera \"{}\" (expected {}){}", scene.name, camera,
+                                          fmt::join(names, ", "), near.empty() ? "" : "; did you mean " + near + "?"));
+        }
+    return fmt::format("{:016x}", loaded.hash);
+}
+
+const FrameScene& SceneSource::at(size_t index, const RenderOptions& options) {
+    const double time = options.frame / options.fps;
+    if (loaded_ && scene_ == index && (!loaded_->is_animated || time_ == time)) return *loaded_;
+    loaded_.reset();  // never two at a time
+    require_scene(*config_, index);
+    const DatasetScene& scene = config_->scenes[index];
+    RenderOptions file = options;
+    if (scene.is_built) {
+        file.scene = fmt::format("{}/{}.glb", scratch_, scene.source);
+        save_glb(find_builder(scene.source)->build(), file.scene);
+    }
+    loaded_ = load_frame_scene(file);
+    if (scene.is_built) std::filesystem::remove(file.scene);
+    scene_ = index, time_ = time;
+    return *loaded_;
+}
+
+}  // namespace pluvia

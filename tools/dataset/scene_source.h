@@ -1,0 +1,36 @@
+// The scenes of a dataset, loaded one at a time.
+#pragma once
+
+#include "tools/dataset/config.h"
+#include "tools/frame_render.h"
+
+#include <optional>
+#include <string>
+
+namespace pluvia {
+
+/// Throws Error (usage) with the configuration's file when a scene is neither built by Pluvia nor a file.
+void require_scene(const DatasetConfig& config, size_t scene);
+
+class SceneSource {
+public:
+    /// scratch: a folder where a built scene is written before it is read back, so that a frame is what `pluvia render`
+    /// makes of the file that `pluvia scenes` writes.
+    SceneSource(const DatasetConfig& config, std::string scratch) : config_(&config), scratch_(std::move(scratch)) {}
+
+    /// Hash of the scene as it is at the start of its sequences, 16 hexadecimal digits. Throws Error: usage when there
+    /// is no such scene or one of its cameras is missing, input when its file cannot be read.
+    std::string hash(size_t scene);
+
+    /// options: those of a frame, whose time decides where the scene is animated.
+    const FrameScene& at(size_t scene, const RenderOptions& options);
+
+private:
+    const DatasetConfig* config_;
+    std::string scratch_;
+    size_t scene_ = 0;
+    double time_ = 0;  // seconds, of the loaded state
+    std::optional<FrameScene> loaded_;
+};
+
+}  // namespace pluvia
