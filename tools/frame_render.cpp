@@ -3,6 +3,8 @@
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/lamps.h"
+#include "shaders/streak_files.h"
+#include "tools/streak_cache.h"
 
 #include <fmt/format.h>
 
@@ -42,6 +44,11 @@ FrameSettings::FrameSettings(const RenderOptions& options)
     display.paper = render.streaks.composition == Composition::paper;
     const DisplayView check(options.view);
     environment = make_environment(options.light, !options.rain.empty());
+    if (display.paper && !options.rain.empty()) {
+        const Progress::Style style = Progress::style_from_name(options.progress);
+        render.streaks.textures = std::make_shared<StreakTextures>(
+            options.streaks.empty() ? cached_streaks(StreakTracing(), style) : read_streaks(options.streaks));
+    }
 }
 
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,

@@ -67,6 +67,22 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->capture_default_str()
         ->group(rain);
     command
+        .add_option(
+            "--streak-distance", o.streak_distance,
+            "paper: drops beyond this many metres are drawn as wide as at it, up to 20 times as far; 1.78 = the "
+            "published code, 0 = true width")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option("--streak-share", o.streak_share,
+                    "paper: share of the drops that is drawn; 0.043 = the published code")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option("--streaks", o.streaks,
+                    "paper: folder of a streak database in Garg and Nayar's layout; default: traced once and kept")
+        ->group(rain);
+    command
         .add_option("--streak-width", o.streak_width,
                     "pixels; narrower drops are not streaks but a medium [0.25]; paper: they are left out [1]")
         ->group(rain);
@@ -124,6 +140,8 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;
     j["streak-gain"] = o.streak_gain, j["fog-beta"] = o.fog_beta;
+    if (o.composition == "paper") j["streak-distance"] = o.streak_distance, j["streak-share"] = o.streak_share;
+    if (!o.streaks.empty()) j["streaks"] = o.streaks.substr(o.streaks.find_last_of('/') + 1);
     j["streak-width"] = streak_width(o);
     j["wetness"] = o.wetness, j["puddles"] = o.puddles, j["ripples"] = o.ripples;
     add_json(j, o.light, !o.rain.empty());

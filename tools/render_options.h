@@ -28,6 +28,8 @@ struct RenderOptions {
     std::vector<double> wind = {0, 0, 0};
     std::string composition = "physical";
     double streak_gain = 24.5;
+    double streak_distance = 0, streak_share = 1;
+    std::string streaks;                 // folder of a streak database; empty: Pluvia's own
     std::optional<double> streak_width;  // empty: 1/4, or 1 with the paper's composition
     double fog_beta = 0;
     std::vector<double> camera_velocity;  // empty = as the scene has it

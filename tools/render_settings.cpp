@@ -78,6 +78,16 @@ RenderSettings render_settings(const RenderOptions& o) {
     if (o.ripples > 0 && o.puddles == 0)
         fail_option("ripples", fmt::format("{}", o.ripples), "--puddles above 0 beside it: rings need standing water");
     s.wet = {float(o.wetness), float(o.puddles), o.ripples};
+    require_option(o.streak_distance >= 0 && o.streak_distance <= 100, "streak-distance", o.streak_distance,
+                   "0 to 100 m");
+    require_option(o.streak_share > 0 && o.streak_share <= 1, "streak-share", o.streak_share, "above 0, up to 1");
+    s.rain.painted_distance = o.streak_distance;
+    s.rain.share = o.streak_share;
+    const bool paper = o.composition == "paper";
+    if (!paper && o.streak_distance > 0)
+        fail_option("streak-distance", "physical rain", "--composition paper beside it");
+    if (!paper && o.streak_share < 1) fail_option("streak-share", "physical rain", "--composition paper beside it");
+    if (!paper && !o.streaks.empty()) fail_option("streaks", "physical rain", "--composition paper beside it");
     return s;
 }
 

@@ -38,6 +38,14 @@ std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, fl
     return covered;
 }
 
+float position_across(const Streak& streak, const Ray& ray) {
+    const Vec3d w = Vec3d(ray.origin) - Vec3d(streak.start), v(streak.velocity), d(ray.direction);
+    // View axes are left-handed: this points to the right of a picture in which v points down.
+    const Vec3d right = cross(d, v);
+    const double size = length(right);
+    return size > 0 ? float(std::clamp(dot(w, right) / (size * double(streak.radius)), -1.0, 1.0)) : 0.0f;
+}
+
 float ExposureUnion::add(float begin, float end) {
     Interval* const all = intervals();
     Interval* const all_end = all + count_;

@@ -24,6 +24,10 @@ struct Covered {
 /// Computed in double precision from the rounded streak and ray: times are exact to 1e-7 of the exposure.
 std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, float exposure_time);
 
+/// How far from the axis of its path a drop that covers the ray (view coordinates) is met, in radii: -1 at the left
+/// edge to 1 at the right one, as the camera sees it with the motion downwards. 0 for a drop that falls along the ray.
+float position_across(const Streak& streak, const Ray& ray);
+
 /// Union of the intervals in which drops have covered a ray. Added front to back, the returned fractions are the exact
 /// weights of the drops, and what is not covered at the end is the weight of the background: together they are 1 to
 /// float rounding.

@@ -1,7 +1,6 @@
 #include "renderer/rain/streak_bins.h"
 
 #include "renderer/core/parallel.h"
-#include "renderer/rain/drop_size.h"
 
 #include <algorithm>
 #include <array>
@@ -45,13 +44,22 @@ bool find_outline(const Streak& streak, const View& view, Outline& outline) {
 StreakFootprint footprint_of(const Outline& outline, float depth) {
     const double dx = outline.x1 - outline.x0, dy = outline.y1 - outline.y0;
     const double length_squared = dx * dx + dy * dy, radius = std::max(outline.radius0, outline.radius1);
-    return {float(outline.x0), float(outline.y0), float(dx), float(dy),
-            length_squared > 1e-6 ? float(1 / length_squared) : 0.0f, float(radius * radius), depth};
+    return {float(outline.x0),
+            float(outline.y0),
+            float(dx),
+            float(dy),
+            length_squared > 1e-6 ? float(1 / length_squared) : 0.0f,
+            float(radius * radius),
+            depth};
 }
 
 // Tiles that an interval of the picture begins and ends in; of one that lies outside, the last is before the first.
-int first_tile(double position, int count) { return int(std::clamp(std::floor(position), 0.0, double(count))); }
-int last_tile(double position, int count) { return int(std::clamp(std::floor(position), -1.0, count - 1.0)); }
+int first_tile(double position, int count) {
+    return int(std::clamp(std::floor(position), 0.0, double(count)));
+}
+int last_tile(double position, int count) {
+    return int(std::clamp(std::floor(position), -1.0, count - 1.0));
+}
 
 struct Tiling {
     int width, height, columns, rows;  // of a tile in pixels; of the picture in tiles
@@ -90,10 +98,15 @@ StreakBins::StreakBins(std::vector<Streak> streaks, const View& view, int tile_w
       footprints_(streaks_.size()),
       exposure_time_(float(view.exposure_time)),
       focal_pixels_(float(view.focal_pixels)),
+      shutter_open_(view.shutter_open),
+      right_(view.right),
+      up_(view.up),
+      forward_(-view.back),
       tile_width_(tile_width),
       tile_height_(tile_height),
       columns_((view.width + tile_width - 1) / tile_width),
       rows_((view.height + tile_height - 1) / tile_height) {
+    for (const Streak& streak : streaks_) largest_radius_ = std::max(largest_radius_, streak.radius);
     // Streaks are counted, then entered, in a fixed number of parts side by side; within a tile the parts follow each
     // other, so that the order is that of the streaks whatever the number of threads.
     constexpr int parts = 16;
@@ -151,7 +164,7 @@ void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec
     const std::span<const Streak> streaks = bins.streaks();
     const std::span<const StreakFootprint> footprints = bins.footprints();
     // The ray's point beside a drop's centre is less than a radius from it, so the depths differ by less than that.
-    const float farthest = ray.t_max * ray.direction.z + float(largest_drop / 2);
+    const float farthest = ray.t_max * ray.direction.z + bins.largest_radius();
     for (const uint32_t index : candidates) {
         if (footprints[index].nearest_depth > farthest) break;
         if (!footprints[index].may_cover(pixel)) continue;

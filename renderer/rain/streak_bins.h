@@ -18,7 +18,7 @@ struct StreakFootprint {
     float x, y, dx, dy;
     float inverse_length_squared;  // of (dx, dy); 0 for a point
     float radius_squared;
-    float nearest_depth;           // metres
+    float nearest_depth;  // metres
 
     float distance_squared(Vec2 pixel) const {
         const float px = pixel.x - x, py = pixel.y - y;
@@ -41,6 +41,9 @@ public:
     std::span<const StreakFootprint> footprints() const { return footprints_; }
     float exposure_time() const { return exposure_time_; }
     float focal_pixels() const { return focal_pixels_; }
+    float largest_radius() const { return largest_radius_; }
+    double shutter_open() const { return shutter_open_; }  // seconds of the sequence
+    Vec3 world_vector(Vec3 in_view) const { return right_ * in_view.x + up_ * in_view.y + forward_ * in_view.z; }
 
     /// Indices, rising and thereby in order of nearest depth, of the streaks that rays through this pixel may meet.
     /// Outside of the picture: those of the nearest pixel.
@@ -52,9 +55,11 @@ public:
 private:
     std::vector<Streak> streaks_;
     std::vector<StreakFootprint> footprints_;
-    float exposure_time_, focal_pixels_;
+    float exposure_time_, focal_pixels_, largest_radius_ = 0;
+    double shutter_open_;
+    Vec3 right_, up_, forward_;  // view axes in the world
     int tile_width_, tile_height_, columns_, rows_;
-    std::vector<uint64_t> first_;     // of each tile in entries_, row by row, and the end
+    std::vector<uint64_t> first_;  // of each tile in entries_, row by row, and the end
     std::vector<uint32_t> entries_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
+#include "renderer/core/random.h"
 #include "renderer/rain/drop_population.h"
 
 #include <algorithm>
@@ -23,6 +24,9 @@ void check_settings(const RainSettings& settings) {
     const double wind = length(settings.wind), width = settings.min_width_pixels, ground = settings.lowest_ground;
     require(wind <= 100, "wind", wind, "at most 100 m/s");
     require(width > 0 && width <= 1000, "min_width_pixels", width, "above 0, at most 1000");
+    require(settings.painted_distance >= 0 && settings.painted_distance <= 1000, "painted_distance",
+            settings.painted_distance, "0 to 1000 m");
+    require(settings.share > 0 && settings.share <= 1, "share", settings.share, "above 0, at most 1");
     require(settings.near > 0 && settings.near <= 1000, "near", settings.near, "above 0, at most 1000 m");
     require(std::abs(ground) <= 1e6, "lowest_ground", ground, "within 1000 km of 0");
 }
@@ -50,14 +54,23 @@ struct SearchRegion {
     }
 };
 
-double farthest_depth(const View& view, const RainSettings& settings, const SizeClass& size) {
-    return size.d2 * view.focal_pixels / settings.min_width_pixels;
+/// How many times wider than it is a drop at this view depth is painted.
+double widening(const RainSettings& settings, double depth) {
+    return settings.painted_distance > 0 ? std::max(1.0, depth / settings.painted_distance) : 1.0;
 }
 
-Vec3d camera_at_open(const View& view) { return view.position - view.velocity * (view.exposure_time / 2); }
+double farthest_depth(const View& view, const RainSettings& settings, const SizeClass& size) {
+    const double depth = size.d2 * view.focal_pixels / settings.min_width_pixels, painted = settings.painted_distance;
+    return painted > 0 && depth >= painted ? painted_reach * painted : depth;
+}
+
+Vec3d camera_at_open(const View& view) {
+    return view.position - view.velocity * (view.exposure_time / 2);
+}
 
 SearchRegion search_region(const View& view, const RainSettings& settings, const SizeClass& size) {
-    const double exposure = view.exposure_time, radius = size.d2 / 2;
+    const double exposure = view.exposure_time;
+    const double radius = size.d2 / 2 * widening(settings, farthest_depth(view, settings, size));
     const Vec3d velocity = settings.wind - view.velocity;
     const Vec3d slow = velocity - Vec3d(0, fall_speed(size.d1), 0), fast = velocity - Vec3d(0, fall_speed(size.d2), 0);
     // Largest speed against a direction: what a drop may be outside in the beginning and still come in.
@@ -122,11 +135,11 @@ std::vector<Cell> cells_in_region(const DropPopulation& population, int size_cla
     return cells;
 }
 
-Streak streak_of(const Drop& drop, const DropPopulation& population, const View& view) {
+Streak streak_of(const Drop& drop, const DropPopulation& population, const View& view, double widening) {
     const auto to_view = [&](Vec3d v) { return Vec3d(dot(v, view.right), dot(v, view.up), -dot(v, view.back)); };
     return {Vec3(to_view(drop.position - camera_at_open(view))),
-            Vec3(to_view(drop_velocity(population, drop.diameter) - view.velocity)), float(drop.diameter / 2),
-            drop.threshold_mm_per_h, drop.key};
+            Vec3(to_view(drop_velocity(population, drop.diameter) - view.velocity)),
+            float(drop.diameter / 2 * widening), drop.threshold_mm_per_h, drop.key};
 }
 
 void sort_by_depth(std::vector<Streak>& streaks, float exposure_time) {
@@ -161,11 +174,16 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
         cells.insert(cells.end(), found.begin(), found.end());
     }
 
-    const auto is_streak = [&](const Drop& drop) {
+    const auto mid_depth = [&](const Drop& drop) {
         const Vec3d velocity = drop_velocity(population, drop.diameter) - view.velocity;
         const Vec3d middle = drop.position - camera_at_open(view) + velocity * (view.exposure_time / 2);
-        const double depth = -dot(middle, view.back);
-        return depth >= settings.near && drop.diameter * view.focal_pixels >= settings.min_width_pixels * depth;
+        return -dot(middle, view.back);
+    };
+    const auto is_streak = [&](const Drop& drop, double depth) {
+        if (settings.painted_distance > 0 && depth > painted_reach * settings.painted_distance) return false;
+        if (settings.share < 1 && unit_double(hash_key(drop.key, 0x7368617265)) >= settings.share) return false;
+        const double width = drop.diameter * widening(settings, depth);
+        return depth >= settings.near && width * view.focal_pixels >= settings.min_width_pixels * depth;
     };
     constexpr int cells_per_block = 16;
     const int block_count = (int(cells.size()) + cells_per_block - 1) / cells_per_block;
@@ -178,14 +196,16 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
             const Vec3d line(0, size_classes[size_class].cell_edge, 0);
             const auto least_diameter = [&](Vec3d lower_end) {
                 if (!region.touches(lower_end, line)) return std::numeric_limits<double>::infinity();
-                const double nearest = -dot(lower_end - region.camera, view.back) -
-                                       std::max(0.0, dot(line, view.back)) - region.approach;
+                const double nearest =
+                    -dot(lower_end - region.camera, view.back) - std::max(0.0, dot(line, view.back)) - region.approach;
                 // A little less, so that rounding leaves the decision to is_streak.
-                return (1 - 1e-6) * settings.min_width_pixels * nearest / view.focal_pixels;
+                const double least = (1 - 1e-6) * settings.min_width_pixels * nearest / view.focal_pixels;
+                return least / widening(settings, nearest);
             };
             const auto keep = [&](const Drop& drop) {
-                if (is_streak(drop) && region.touches(drop.position, {}))
-                    found[block].push_back(streak_of(drop, population, view));
+                const double depth = mid_depth(drop);
+                if (is_streak(drop, depth) && region.touches(drop.position, {}))
+                    found[block].push_back(streak_of(drop, population, view, widening(settings, depth)));
             };
             visit_drops(population, size_class, index, view.shutter_open, max_intensity, least_diameter, keep);
         }

@@ -16,23 +16,30 @@ struct RainSettings {
     double min_width_pixels = 0.25;  // drops narrower than this belong to the medium; the number of streaks grows as
                                      // its inverse cube
     double fog_extinction = 0;       // 1/m, of a fog that hangs where it rains, at every intensity
-    double lowest_ground = 0;     // metres, world y: there are drops from here to rain_height above
-    double near = 0.1;            // metres of view depth: drops and medium begin here
+    double lowest_ground = 0;        // metres, world y: there are drops from here to rain_height above
+    double near = 0.1;               // metres of view depth: drops and medium begin here
+    // As "Learning from Rendering" draws streaks, and not as they are:
+    double painted_distance = 0;  // metres: farther drops are as wide as if they were this far, up to painted_reach
+                                  // times as far, and there are none beyond; 0 = true width
+    double share = 1;             // of the drops, whatever their size
 };
+constexpr double painted_reach = 20;
 
 /// A falling drop relative to the camera during one exposure. View axes: x right, y up, z view depth. Single precision
 /// is enough: relative to the camera it rounds directions by 1e-7, a few 1e-4 pixels, and that the same for all rays.
 struct Streak {
     Vec3 start;                // centre of the drop when the shutter opens
     Vec3 velocity;             // relative to the camera, m/s
-    float radius;              // metres
+    float radius;              // metres, as painted
     float threshold_mm_per_h;  // the streak is seen at every intensity >= this
     uint64_t key;              // of the drop: the same in all frames
 };
 
 /// A drop counts from this view depth on: nearer than two diameters it would be touching the lens. Matters only where
 /// the camera moves so fast that it meets drops.
-inline float contact_depth(const Streak& streak) { return 4 * streak.radius; }
+inline float contact_depth(const Streak& streak) {
+    return 4 * streak.radius;
+}
 
 /// Smallest view depth of the drop's centre while it counts.
 inline float nearest_depth(const Streak& streak, float exposure_time) {
@@ -43,9 +50,9 @@ inline float nearest_depth(const Streak& streak, float exposure_time) {
 /// All drops that exist at the largest intensity asked for and may be in the picture during the exposure, ordered by
 /// nearest_depth, then key. view.position is the camera's place at mid-exposure, as for the background.
 /// Drop or medium is decided by the view depth z of the drop's centre at mid-exposure alone: it is a streak if
-/// z >= near and diameter * focal_pixels >= min_width_pixels * z. Which streaks are off the picture is decided
-/// conservatively. A streak does not depend on what other intensities are asked for.
-/// Throws a usage error for settings out of range.
+/// z >= near and (painted) diameter * focal_pixels >= min_width_pixels * z. Which streaks are off the picture is
+/// decided conservatively. A streak does not depend on what other intensities are asked for. Throws a usage error for
+/// settings out of range.
 std::vector<Streak> find_streaks(const View& view, const RainSettings& settings);
 
 }  // namespace pluvia

@@ -106,7 +106,8 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
     if (distance == 0) return;
     counters.count(Feature::medium_point);
     const Vec3 position = segment.ray.at(distance);
-    ScatteredLight event(*tracer_, scatterer, position, segment.ray.direction, scratch.distant, sampler);
+    const ScatterFunction function = scatter_function(scatterer, segment.ray.direction);
+    ScatteredLight event(*tracer_, function, position, scratch.distant, sampler);
     const Lights& lights = tracer_->lights();
     Vec3 anchor;
     if (lights.has_local()) {
@@ -152,7 +153,7 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
     const float probability = lights.choice_probability({position, Vec3()}, lamp->light);
     const float there = medium_->pdf(scatterer, in_rain, distance) * probability;
     float mis = power_heuristic(density * lamp->probability, there);
-    const float phase = scatter_phase(scatterer, dot(light.wi, segment.ray.direction));
+    const float phase = evaluate_scatter(scatter_function(scatterer, segment.ray.direction), light.wi).value;
     // What a path continued by the phase function finds is its share as weighed against the light sample of scatter().
     if (!light.delta) mis *= power_heuristic(light.pdf * probability / lamp->probability, phase);
     const Rgb contribution = light.radiance * (phase * mis / light.pdf);
@@ -167,6 +168,50 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
         });
 }
 
+/// How the drop turns light at the place of its streak that the ray meets.
+ScatterFunction RainStage::streak_scatter(const StreakHit& hit, const CameraSegment& segment,
+                                          const Sampler& sampler) const {
+    if (settings_.composition == Composition::physical) {
+        // From one to two pixels of width the picture in the drop takes over from its mean.
+        const bool seen = hit.width >= 2 || (hit.width > 1 && sampler.get_1d(Draw::medium_anchor) < hit.width - 1);
+        if (seen) return lens_scatter(hit, segment, sampler);
+    }
+    if (settings_.composition == Composition::physical || !settings_.textures)
+        return DropScatter{segment.ray.direction};
+    const Streak& streak = bins_->streaks()[hit.streak];
+    const float time = 0.5f * (hit.covered.begin + hit.covered.end);
+    return TexturedScatter{segment.ray.direction, settings_.textures.get(),
+                           streak_place(segment.ray.direction, streak.key, 2 * streak.radius, bins_->exposure_time(),
+                                        position_across(streak, segment.view_ray), time)};
+}
+
+/// What the drop shows while it passes the ray, at a few moments, one in each part of the time.
+ScatterFunction RainStage::lens_scatter(const StreakHit& hit, const CameraSegment& segment,
+                                        const Sampler& sampler) const {
+    const Streak& streak = bins_->streaks()[hit.streak];
+    const DropOscillation drop = drop_oscillation(streak.radius, streak.key);
+    const Ray& ray = segment.view_ray;
+    const float u = sampler.get_1d(Draw::medium_distance);
+    LensScatter scatter{DropLens(hit.width)};
+    for (int i = 0; i < DropLens::max_moments; ++i) {
+        const float part = (float(i) + u) / float(DropLens::max_moments);
+        const float time = (hit.covered.begin + part * hit.covered.fraction()) * bins_->exposure_time();
+        const Vec3 to_centre = streak.start + streak.velocity * time - ray.origin;
+        const Vec3 across = ray.direction * dot(to_centre, ray.direction) - to_centre;
+        scatter.lens.add(drop.at(bins_->shutter_open() + double(time)), segment.ray.direction,
+                         bins_->world_vector(across / streak.radius), DropLens::max_moments);
+    }
+    return scatter;
+}
+
+/// S_a tau1/T of the paper's formula for the place of a streak that the ray meets.
+float RainStage::paper_weight(const StreakHit& hit, const CameraSegment& segment) const {
+    const Streak& streak = bins_->streaks()[hit.streak];
+    const Vec3 d = segment.view_ray.direction;
+    const Vec3 across = streak.velocity - d * dot(streak.velocity, d);
+    return paper_alpha(hit.covered.fraction(), 2 * streak.radius, length(across) * bins_->exposure_time());
+}
+
 /// Radiance of the drop towards the camera, computed for a share of the samples.
 Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
                             const std::optional<LightSample>& distant, const Sampler& pixel_sampler,
@@ -174,12 +219,14 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     counters.count(Feature::streak_hit);
     // Numbers of a drop's own: its light does not depend on which other drops are there.
     const Sampler sampler = pixel_sampler.fork(hash_key(rain_domain, bins_->streaks()[hit.streak].key));
-    const ScatteredLight event(*tracer_, Scatterer::drop, segment.ray.at(hit.covered.distance), segment.ray.direction,
-                               distant, sampler);
+    const ScatterFunction function = streak_scatter(hit, segment, sampler);
+    const ScatteredLight event(*tracer_, function, segment.ray.at(hit.covered.distance), distant, sampler);
     // What the light could bring beside the background. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
-    const float q = worth(hit.covered.fraction() * brightness, segment);
+    const bool paper = settings_.composition == Composition::paper;
+    const float weight = paper ? float(settings_.paper_gain) * paper_weight(hit, segment) : hit.covered.fraction();
+    const float q = worth(weight * brightness, segment);
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
     counters.count(Feature::streak_path);
     const Rgb light = event.trace(counters);
@@ -210,7 +257,7 @@ RainSample RainStage::compose_physical(const RainScratch& scratch, size_t intens
     return sample;
 }
 
-/// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain L tau0/T times the streak's texture, in linear light.
+/// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain S_a L tau0/T, in linear light; L holds the streak's texture.
 RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const {
     const size_t count = scratch.hits.size();
     const float* const transmission = scratch.transmissions.data() + intensity;
@@ -226,14 +273,9 @@ RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegm
         const Streak& streak = bins_->streaks()[hit.streak];
         if (streak.threshold_mm_per_h > intensities_[intensity]) continue;
         scatter_before(hit.covered.distance);
-        const Vec3 d = segment.view_ray.direction;
-        const Vec3 across = streak.velocity - d * dot(streak.velocity, d);
-        const float path = length(across) * bins_->exposure_time();
-        const float alpha = paper_alpha(hit.covered.fraction(), 2 * streak.radius, path);
-        const float time = 0.5f * (hit.covered.begin + hit.covered.end) * bins_->exposure_time();
-        const float texture = streak_texture(2 * streak.radius, time, streak.key);
-        sample.light += scratch.light[k] * (transmission[k * intensities_.size()] * transmittance * alpha * texture *
-                                            float(settings_.paper_gain));
+        const float alpha = paper_weight(hit, segment);
+        sample.light += scratch.light[k] *
+                        (transmission[k * intensities_.size()] * transmittance * alpha * float(settings_.paper_gain));
         if (hit.width >= 1) sample.wide_coverage += transmittance * alpha;
         transmittance *= 1 - alpha;
     }

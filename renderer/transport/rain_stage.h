@@ -10,6 +10,7 @@
 #include "renderer/transport/scattered_light.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,8 @@ struct StreakSettings {
     /// Factor on the light of streaks with the paper's composition. 24.5 is what the paper's published code amounts to
     /// (exposure 1/60 s over its tau0 of 0.68 ms); 1 would be exact.
     double paper_gain = 24.5;
+    /// What streaks look like with the paper's composition; null: even.
+    std::shared_ptr<const StreakTextures> textures;
     /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. Streaks, medium.
     double roulette = 0.1;
 };
@@ -86,6 +89,9 @@ private:
     RainSample compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const;
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,
                      const Sampler& sampler, Counters& counters) const;
+    ScatterFunction streak_scatter(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler) const;
+    ScatterFunction lens_scatter(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler) const;
+    float paper_weight(const StreakHit& hit, const CameraSegment& segment) const;
     /// Probability with which light is computed that may bring this luminance.
     float worth(float expected, const CameraSegment& segment) const {
         return std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));

@@ -2,23 +2,20 @@
 // by a path that the phase function continues, weighed against each other.
 #pragma once
 
-#include "renderer/rain/rain_medium.h"
 #include "renderer/transport/path.h"
+#include "renderer/transport/scatter_function.h"
 
 #include <array>
 
 namespace pluvia {
 
-/// Phase function of a scatterer, 1/sr. cos_theta: cosine of the turn angle, 1 = straight through.
-float scatter_phase(Scatterer scatterer, float cos_theta);
-
 /// One scattering event. Light that reaches it has not met rain. Made in two steps, so that the costly one can be left
 /// to roulette once it is known what the lights may bring.
 class ScatteredLight {
 public:
-    /// direction: of the camera ray, unit. distant: sample of sun and sky, which may serve many events; empty: there
-    /// is none. The sampler's numbers belong to this event alone. Keeps references.
-    ScatteredLight(const PathTracer& tracer, Scatterer scatterer, Vec3 position, Vec3 direction,
+    /// distant: sample of sun and sky, which may serve many events; empty: there is none. The sampler's numbers belong
+    /// to this event alone. Keeps references.
+    ScatteredLight(const PathTracer& tracer, const ScatterFunction& function, Vec3 position,
                    const std::optional<LightSample>& distant, const Sampler& sampler);
 
     /// Luminance of the sampled lights if nothing shadows them, in cd/m2.
@@ -35,13 +32,12 @@ private:
         Rgb contribution;  // if the light is visible
         Draw draw;
     };
-    float phase(float cos_theta) const { return scatter_phase(scatterer_, cos_theta); }
     void add(const LightSample& light, Draw draw);
 
     const PathTracer* tracer_;
     const Sampler* sampler_;
-    Scatterer scatterer_;
-    Vec3 position_, direction_;
+    const ScatterFunction* function_;
+    Vec3 position_;
     std::optional<Lights::LocalPoint> lamp_;  // of the first candidate
     std::array<Candidate, 2> candidates_;
     int count_ = 0;
