@@ -257,15 +257,12 @@ float Environment::pdf(Vec3 direction) const {
 EnvironmentSample Environment::sample(Vec2 u, float u_choice) const {
     if (is_black()) return {};
     if (picture_.pixels.empty()) return {sample_sphere(u), uniform_, pdf_sphere};
-    Vec3 wi;
     size_t i = 0;
     for (; i < sources_.size() && u_choice >= sources_[i].probability; ++i) u_choice -= sources_[i].probability;
-    if (i < sources_.size())
-        wi = sources_[i].basis.to_world(sample_cone(u, sources_[i].one_minus_cos));
-    else if (picture_probability_ > 0)
-        wi = sample_picture(u);
-    else  // rounding has left a little beyond the last disc
-        wi = discs_.back().direction;
+    if (i == sources_.size() && picture_probability_ > 0) return sample_picture(u);
+    // Rounding may have left a little beyond the last disc.
+    const Vec3 wi = i < sources_.size() ? sources_[i].basis.to_world(sample_cone(u, sources_[i].one_minus_cos))
+                                        : discs_.back().direction;
     const Vec2 uv = equirectangular_from_direction(wi);
     return {wi, radiance_at(uv, wi), pdf_at(uv, wi)};
 }
@@ -282,21 +279,32 @@ Rgb Environment::radiance_at(Vec2 uv, Vec3 direction) const {
 }
 
 float Environment::pdf_at(Vec2 uv, Vec3 direction) const {
-    float sum = picture_probability_ * picture_pdf(uv);
+    const int column = std::min(int(uv.x * float(columns_)), columns_ - 1);
+    const int row = std::min(int(uv.y * float(rows_)), rows_ - 1);
+    return pdf_in_cell(row, column, direction);
+}
+
+float Environment::pdf_in_cell(int row, int column, Vec3 direction) const {
+    const auto solid_angle = float((row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / columns_));
+    float sum =
+        picture_probability_ * row_choice_.probability(row) * column_choice_[row].probability(column) / solid_angle;
     for (size_t i = 0; i < discs_.size(); ++i)
         if (is_in_disc(i, direction)) sum += sources_[i].probability * pdf_cone(sources_[i].one_minus_cos);
     return sum;
 }
 
-Vec3 Environment::sample_picture(Vec2 u) const {
+EnvironmentSample Environment::sample_picture(Vec2 u) const {
     const auto row = row_choice_.sample(u.y);
     const auto column = column_choice_[row.cell].sample(u.x);
     // In double: next to a pole single precision leaves only a few values between the edges of a row.
     const double top = row_edge_[row.cell], bottom = row_edge_[row.cell + 1];
     const double y = top + row.offset * (bottom - top);
     const auto radius = float(std::sqrt(std::max(0.0, (1 - y) * (1 + y))));
-    const float phi = (float(column.cell) + column.offset) * (2 * pi / float(columns_));
-    return {-radius * std::cos(phi), float(y), -radius * std::sin(phi)};
+    const float across = (float(column.cell) + column.offset) / float(columns_), phi = 2 * pi * across;
+    const Vec3 wi(-radius * std::cos(phi), float(y), -radius * std::sin(phi));
+    // Of the point that was drawn, not of the direction again: the texels are on their way sooner.
+    const Vec2 uv(across, 0.5f - fast_atan2(float(y), radius) * (1 / pi));
+    return {wi, radiance_at(uv, wi), pdf_in_cell(row.cell, column.cell, wi)};
 }
 
 Rgb Environment::picture_radiance(Vec2 uv) const {
@@ -311,13 +319,6 @@ Rgb Environment::picture_radiance(Vec2 uv) const {
     return mix(mix(picture_.at(left, row), picture_.at(right, row), tx),
                mix(picture_.at(left, below), picture_.at(right, below), tx), ty) *
            scale_;
-}
-
-float Environment::picture_pdf(Vec2 uv) const {
-    const int column = std::min(int(uv.x * float(columns_)), columns_ - 1);
-    const int row = std::min(int(uv.y * float(rows_)), rows_ - 1);
-    const auto solid_angle = float((row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / columns_));
-    return row_choice_.probability(row) * column_choice_[row].probability(column) / solid_angle;
 }
 
 }  // namespace pluvia

@@ -83,7 +83,8 @@ public:
     /// cell. Cells are squares of texels, as large as the picture is smooth. A texel counts with the mean of the
     /// bilinear interpolant over its area, so that pdf > 0 wherever the picture is not black, also where light only
     /// leaks in from a neighbour. A uniform environment is sampled uniformly. u, u_choice: independent, uniform in [0,
-    /// 1). The sample's radiance and pdf are those of wi.
+    /// 1). The sample's radiance and pdf are those of wi to rounding, by which a point on the border of a cell may
+    /// count to its neighbour.
     EnvironmentSample sample(Vec2 u, float u_choice) const;
     /// Solid-angle density of sample() in a unit direction, over all strategies.
     float pdf(Vec3 direction) const;
@@ -106,9 +107,9 @@ private:
         float one_minus_cos;
         float probability;
     };
-    Vec3 sample_picture(Vec2 u) const;
+    EnvironmentSample sample_picture(Vec2 u) const;
     Rgb picture_radiance(Vec2 uv) const;
-    float picture_pdf(Vec2 uv) const;
+    float pdf_in_cell(int row, int column, Vec3 direction) const;
     bool is_in_disc(size_t disc, Vec3 direction) const;
     // uv: that of the direction in the picture.
     Rgb radiance_at(Vec2 uv, Vec3 direction) const;

@@ -211,12 +211,16 @@ TEST_CASE("sampling finds the light that quadrature finds") {
 
 TEST_CASE("a sample carries the radiance and pdf of its direction") {
     const Environment environment(rough_picture(33, 17), {small_sun()});
+    int in_another_cell = 0;
     for (int i = 0; i < 10000; ++i) {
         const EnvironmentSample s = draw(environment, 21, i);
-        CHECK(s.radiance == environment.radiance(s.wi));
-        CHECK(s.pdf == environment.pdf(s.wi));
+        const Rgb seen = environment.radiance(s.wi), difference = s.radiance - seen;
+        // A direction is known to 1e-7 of a turn: that is 3e-6 texels, which differ by up to 1000 in red.
+        CHECK(std::abs(luminance(difference)) <= 3e-3f);
+        in_another_cell += s.pdf != environment.pdf(s.wi);
         CHECK(std::abs(length(s.wi) - 1) < 1e-6f);
     }
+    CHECK(in_another_cell <= 1);  // rounding moves one point of 1e5 across a border
 }
 
 TEST_CASE("no light of a picture has zero pdf") {

@@ -14,7 +14,7 @@ namespace pluvia {
 struct GltfSettings {
     double time = 0;                  // seconds at which animations are sampled
     double exposure_time = 1.0 / 60;  // seconds around it over which a camera's velocity is measured
-    std::string variant;              // of KHR_materials_variants; empty: the materials that meshes have without one
+    std::string variant = "";         // of KHR_materials_variants; empty: the materials that meshes have without one
     bool allow_outside = false;       // files that lie outside of the scene's folder may be read
 };
 

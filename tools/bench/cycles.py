@@ -1,8 +1,11 @@
 """Renders a glTF file in Blender's Cycles with an equirectangular environment, as the partner of `pluvia render`.
 
-Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED]
-ENVIRONMENT: an HDR or EXR file, or R,G,B. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED
+       [FRAME.json]]
+ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
+instead of the file's. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
 """
+import json
 import sys
 import time
 
@@ -10,9 +13,11 @@ import numpy
 
 numpy.bool = bool  # Blender 3.4's glTF importer uses the name that newer numpy has dropped
 import bpy
+from mathutils import Matrix
 
-scene_file, out, width, height, samples, environment = sys.argv[sys.argv.index("--") + 1 :][:6]
-seed = int(sys.argv[sys.argv.index("--") + 7]) if len(sys.argv) > sys.argv.index("--") + 7 else 0
+arguments = sys.argv[sys.argv.index("--") + 1 :]
+scene_file, out, width, height, samples, environment = arguments[:6]
+seed = int(arguments[6]) if len(arguments) > 6 else 0
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=scene_file)
@@ -32,7 +37,18 @@ scene.render.image_settings.color_depth = "32"
 scene.render.image_settings.color_mode = "RGB"
 scene.view_settings.view_transform = "Raw"
 scene.render.filepath = out
-scene.camera = next(o for o in scene.objects if o.type == "CAMERA")
+if len(arguments) > 7:
+    with open(arguments[7], encoding="utf-8") as file:
+        frame = json.load(file)["camera"]
+    lens = bpy.data.cameras.new("frame")
+    lens.sensor_fit, lens.sensor_width = "HORIZONTAL", 36
+    lens.lens = frame["intrinsics"][0][0] / int(width) * 36
+    scene.camera = bpy.data.objects.new("frame", lens)
+    scene.collection.objects.link(scene.camera)
+    z_up = Matrix(((1, 0, 0, 0), (0, 0, -1, 0), (0, 1, 0, 0), (0, 0, 0, 1)))
+    scene.camera.matrix_world = z_up @ Matrix(frame["world_from_camera"])
+else:
+    scene.camera = next(o for o in scene.objects if o.type == "CAMERA")
 
 world = scene.world = bpy.data.worlds.new("world")
 world.use_nodes = True

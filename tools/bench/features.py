@@ -16,6 +16,8 @@ import struct
 import subprocess
 import sys
 
+import references
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIZE = "384x288"
 
@@ -92,9 +94,8 @@ class Draft:
                     math.sin(math.pi * i / rings) * math.sin(2 * math.pi * k / segments)]
                    for i in range(rings + 1) for k in range(segments + 1)]
         w = segments + 1
-        triangles = [t for i in range(rings) for k in range(segments)
-                     for t in ((i * w + k, i * w + k + 1, (i + 1) * w + k), (i * w + k + 1, (i + 1) * w + k + 1, (i + 1) * w + k))
-                     if not (i == 0 and t[1] == i * w + k + 1 and t[2] == (i + 1) * w + k and t[0] == i * w + k and False)]
+        triangles = [t for i in range(rings) for a in range(i * w, i * w + segments)
+                     for t in ((a, a + 1, a + w), (a + 1, a + w + 1, a + w))]
         self.mesh([[centre[k] + radius * n[k] for k in range(3)] for n in normals], normals, triangles, made)
 
     def save(self, path):
@@ -113,8 +114,10 @@ def make_files(folder):
     files = []
     for name, made in list(SPHERES.items()) + list(SHEETS.items()):
         draft = Draft()
-        draft.quad([-4, 0, 4], [8, 0, 0], [0, 0, -8], [0, 1, 0], material())
-        draft.quad([-4, 0, -2], [8, 0, 0], [0, 4, 0], [0, 0, 1], material({"baseColorFactor": [0.3, 0.4, 0.5, 1]}))
+        # Around the feature there are Lambert surfaces, which both programs have alike.
+        draft.quad([-4, 0, 4], [8, 0, 0], [0, 0, -8], [0, 1, 0], material(specular={"specularFactor": 0}))
+        draft.quad([-4, 0, -2], [8, 0, 0], [0, 4, 0], [0, 0, 1],
+                   material({"baseColorFactor": [0.3, 0.4, 0.5, 1]}, specular={"specularFactor": 0}))
         draft.sphere([0, 0.75, 0], 0.75, made if name in SPHERES else SPHERES["plastic"])
         if name in SHEETS:
             draft.quad([-0.2, 0.1, 1.2], [1.4, 0, 0.4], [0, 1.5, 0], [-0.275, 0, 0.961], made)
@@ -130,23 +133,36 @@ def run(command):
     return done.stdout
 
 
-def compare(options, a, b, layer):
-    text = run([options.pluvia, "validate", "compare", a, b, "--layer", layer, "--json"])
-    return json.loads(text)
+def compare(options, a, b):
+    """Bias and trimmed relMSE of a against b."""
+    command = [options.pluvia, "validate", "compare", a, b, "--no-flip", "--json"]
+    numbers = json.loads(run(command))["pairs"][0]["regions"]["all"]
+    return numbers["bias"], numbers["relmse_trimmed"]
+
+
+def side_by_side(options, ours, theirs, ev, path):
+    """One PNG, exposed alike: a sensor is full at 1.2 * 2^EV cd/m2."""
+    run(["oiiotool", f"{ours}/frame.exr", "--ch", "background.R=background.R,background.G,background.B", theirs,
+         "--chnames", "R,G,B", "--mosaic:pad=4", "2x1", "--mulc", str(1 / (1.2 * 2**ev)), "--clamp:min=0:max=1", "--powc",
+         str(1 / 2.2), "-d", "uint8", "-o", path])
 
 
 def measure(options, path):
     name = os.path.splitext(os.path.basename(path))[0]
-    ours, theirs = f"{options.folder}/{name}_pluvia", f"{options.folder}/{name}_cycles"
-    width, height = SIZE.split("x")
-    for seed in ("0", "1"):
-        run([options.pluvia, "render", path, "-o", f"{ours}_{seed}", "--size", SIZE, "--spp", options.spp, "--seed", seed,
-             "--environment", options.environment, "--view", "filmic", "--progress", "none", "--overwrite"])
-        run(["blender", "-b", "--factory-startup", "-P", HERE + "/cycles.py", "--", path, f"{theirs}_{seed}.exr", width, height,
-             options.spp, options.environment, seed, f"{ours}_0/frame.json"])
-    return name, compare(options, f"{ours}_0/frame.exr", f"{theirs}_0.exr", "background"), [
-        compare(options, f"{ours}_1/frame.exr", f"{ours}_0/frame.exr", "background"),
-        compare(options, f"{theirs}_1.exr", f"{theirs}_0.exr", "")]
+    ours, theirs = [[f"{options.folder}/{name}_{program}_{seed}" for seed in "01"] for program in ("pluvia", "cycles")]
+    for seed in (0, 1):
+        run([options.pluvia, "render", path, "-o", ours[seed], "--size", SIZE, "--spp", options.spp, "--seed", str(seed),
+             "--environment", options.environment, "--progress", "none", "--overwrite"])
+        run(["blender", "-b", "--factory-startup", "-P", HERE + "/cycles.py", "--", path, theirs[seed] + ".exr",
+             *SIZE.split("x"), options.spp, options.environment, str(seed), ours[0] + "/frame.json"])
+    with open(ours[0] + "/frame.json", encoding="utf-8") as file:
+        ev = json.load(file)["exposure_ev100"]
+    side_by_side(options, ours[0], theirs[0] + ".exr", ev, f"{options.folder}/{name}.png")
+    bias, relmse = compare(options, ours[0] + "/frame.exr", theirs[0] + ".exr")
+    # Two seeds differ by twice the noise of one; a picture of ours and one of theirs by the sum of both.
+    noise = sum(compare(options, a, b)[1] / 2 for a, b in
+                ((ours[1] + "/frame.exr", ours[0] + "/frame.exr"), (theirs[1] + ".exr", theirs[0] + ".exr")))
+    print(f"| {name} | {100 * bias:+.2f} % | {relmse:.5f} | {noise:.5f} |", flush=True)
 
 
 def main():
@@ -157,6 +173,12 @@ def main():
     parser.add_argument("--spp", default="256")
     options = parser.parse_args()
     os.makedirs(options.folder, exist_ok=True)
+    options.environment = options.folder + "/environment.exr"
+    references.write_exr(options.environment, references.environment(math.pi, 0.6), ["R", "G", "B"])
+    print("| feature | bias | relMSE, trimmed | of that noise |\n| --- | --- | --- | --- |", flush=True)
+    for path in options.files or make_files(options.folder):
+        measure(options, path)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -192,4 +192,5 @@ def main():
         print(f"{reference.path}: {reference.samples()} of {reference.target} samples", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()
