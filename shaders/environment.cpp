@@ -218,12 +218,11 @@ void Environment::add_discs(const std::vector<Disc>& discs) {
         power.push_back(luminance(mean));
         total += power.back();
     }
-    constexpr double floor = 0.05;  // a source that is weak overall may be all the
-                                    // light behind a corner
-    double sum = picture > 0 ? std::max(floor, picture / total) : 0;
+    constexpr double floor = 0.05;  // a source that is weak overall may be all the light behind a corner
+    double sum = 0;                 // of the discs
     for (const double p : power) sum += std::max(floor, p / total);
-    if (sum > 0 && picture == 0) picture_probability_ = 0;
-    if (picture > 0) picture_probability_ = float(std::max(floor, picture / total) / sum);
+    const double sky = picture > 0 ? std::max(floor, picture / total) : 0;
+    picture_probability_ = discs_.empty() ? 1 : float(sky / (sky + sum));
     for (size_t i = 0; i < discs_.size(); ++i)
         sources_.push_back({ShadingBasis(discs_[i].direction), discs_[i].one_minus_cos(),
                             float(std::max(floor, power[i] / total) / sum)});
@@ -244,56 +243,28 @@ double Environment::disc_illuminance() const {
 }
 
 Rgb Environment::radiance(Vec3 direction) const {
-    if (picture_.pixels.empty()) return uniform_;
-    return radiance_at(equirectangular_from_direction(direction), direction);
+    return sky(direction).radiance + sun(direction).radiance;
 }
 
 float Environment::pdf(Vec3 direction) const {
     if (is_black()) return 0;
-    if (picture_.pixels.empty()) return pdf_sphere;
-    return pdf_at(equirectangular_from_direction(direction), direction);
+    return picture_probability_ * sky(direction).pdf + (1 - picture_probability_) * sun(direction).pdf;
 }
 
 EnvironmentSample Environment::sample(Vec2 u, float u_choice) const {
     if (is_black()) return {};
+    const bool of_sky = u_choice < picture_probability_;
+    EnvironmentSample s =
+        of_sky ? sample_sky(u) : sample_sun(u, (u_choice - picture_probability_) / (1 - picture_probability_));
+    const EnvironmentSample other = of_sky ? sun(s.wi) : sky(s.wi);
+    s.radiance += other.radiance;
+    const float share = of_sky ? picture_probability_ : 1 - picture_probability_;
+    s.pdf = share * s.pdf + (1 - share) * other.pdf;
+    return s;
+}
+
+EnvironmentSample Environment::sample_sky(Vec2 u) const {
     if (picture_.pixels.empty()) return {sample_sphere(u), uniform_, pdf_sphere};
-    size_t i = 0;
-    for (; i < sources_.size() && u_choice >= sources_[i].probability; ++i) u_choice -= sources_[i].probability;
-    if (i == sources_.size() && picture_probability_ > 0) return sample_picture(u);
-    // Rounding may have left a little beyond the last disc.
-    const Vec3 wi = i < sources_.size() ? sources_[i].basis.to_world(sample_cone(u, sources_[i].one_minus_cos))
-                                        : discs_.back().direction;
-    const Vec2 uv = equirectangular_from_direction(wi);
-    return {wi, radiance_at(uv, wi), pdf_at(uv, wi)};
-}
-
-bool Environment::is_in_disc(size_t disc, Vec3 direction) const {
-    return length_squared(direction - discs_[disc].direction) <= 2 * sources_[disc].one_minus_cos;
-}
-
-Rgb Environment::radiance_at(Vec2 uv, Vec3 direction) const {
-    Rgb sum = picture_radiance(uv);
-    for (size_t i = 0; i < discs_.size(); ++i)
-        if (is_in_disc(i, direction)) sum += discs_[i].radiance(direction);
-    return sum;
-}
-
-float Environment::pdf_at(Vec2 uv, Vec3 direction) const {
-    const int column = std::min(int(uv.x * float(columns_)), columns_ - 1);
-    const int row = std::min(int(uv.y * float(rows_)), rows_ - 1);
-    return pdf_in_cell(row, column, direction);
-}
-
-float Environment::pdf_in_cell(int row, int column, Vec3 direction) const {
-    const auto solid_angle = float((row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / columns_));
-    float sum =
-        picture_probability_ * row_choice_.probability(row) * column_choice_[row].probability(column) / solid_angle;
-    for (size_t i = 0; i < discs_.size(); ++i)
-        if (is_in_disc(i, direction)) sum += sources_[i].probability * pdf_cone(sources_[i].one_minus_cos);
-    return sum;
-}
-
-EnvironmentSample Environment::sample_picture(Vec2 u) const {
     const auto row = row_choice_.sample(u.y);
     const auto column = column_choice_[row.cell].sample(u.x);
     // In double: next to a pole single precision leaves only a few values between the edges of a row.
@@ -301,10 +272,44 @@ EnvironmentSample Environment::sample_picture(Vec2 u) const {
     const double y = top + row.offset * (bottom - top);
     const auto radius = float(std::sqrt(std::max(0.0, (1 - y) * (1 + y))));
     const float across = (float(column.cell) + column.offset) / float(columns_), phi = 2 * pi * across;
-    const Vec3 wi(-radius * std::cos(phi), float(y), -radius * std::sin(phi));
     // Of the point that was drawn, not of the direction again: the texels are on their way sooner.
     const Vec2 uv(across, 0.5f - fast_atan2(float(y), radius) * (1 / pi));
-    return {wi, radiance_at(uv, wi), pdf_in_cell(row.cell, column.cell, wi)};
+    return {{-radius * std::cos(phi), float(y), -radius * std::sin(phi)},
+            picture_radiance(uv),
+            cell_pdf(row.cell, column.cell)};
+}
+
+EnvironmentSample Environment::sample_sun(Vec2 u, float u_choice) const {
+    size_t i = 0;
+    for (; i + 1 < sources_.size() && u_choice >= sources_[i].probability; ++i) u_choice -= sources_[i].probability;
+    return sun(sources_[i].basis.to_world(sample_cone(u, sources_[i].one_minus_cos)));
+}
+
+EnvironmentSample Environment::sky(Vec3 direction) const {
+    if (picture_.pixels.empty()) return {direction, uniform_, pdf_sphere};
+    const Vec2 uv = equirectangular_from_direction(direction);
+    const int column = std::min(int(uv.x * float(columns_)), columns_ - 1);
+    const int row = std::min(int(uv.y * float(rows_)), rows_ - 1);
+    return {direction, picture_radiance(uv), cell_pdf(row, column)};
+}
+
+EnvironmentSample Environment::sun(Vec3 direction) const {
+    EnvironmentSample s{direction, Rgb(0), 0};
+    for (size_t i = 0; i < discs_.size(); ++i) {
+        if (!is_in_disc(i, direction)) continue;
+        s.radiance += discs_[i].radiance(direction);
+        s.pdf += sources_[i].probability * pdf_cone(sources_[i].one_minus_cos);
+    }
+    return s;
+}
+
+bool Environment::is_in_disc(size_t disc, Vec3 direction) const {
+    return length_squared(direction - discs_[disc].direction) <= 2 * sources_[disc].one_minus_cos;
+}
+
+float Environment::cell_pdf(int row, int column) const {
+    const auto solid_angle = float((row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / columns_));
+    return row_choice_.probability(row) * column_choice_[row].probability(column) / solid_angle;
 }
 
 Rgb Environment::picture_radiance(Vec2 uv) const {

@@ -89,6 +89,17 @@ public:
     /// Solid-angle density of sample() in a unit direction, over all strategies.
     float pdf(Vec3 direction) const;
 
+    /// The picture on its own and the discs on their own, for those who sample both: one sample of all together goes to
+    /// the sun most of the time, which is in vain where the sun is hidden.
+    bool has_sky() const { return picture_.pixels.empty() ? luminance(uniform_) > 0 : picture_probability_ > 0; }
+    bool has_sun() const { return !discs_.empty(); }
+    /// As sample(), of one part; where it has light.
+    EnvironmentSample sample_sky(Vec2 u) const;
+    EnvironmentSample sample_sun(Vec2 u, float u_choice) const;
+    /// What the samples of a part are in a unit direction. radiance() is the sum of both radiances.
+    EnvironmentSample sky(Vec3 direction) const;
+    EnvironmentSample sun(Vec3 direction) const;
+
     /// Illuminance on a horizontal surface that faces up, in lux: by the picture's upper half, and by the discs, each
     /// of which counts as a point at its centre. These and mean_radiance take the interpolant as constant within a
     /// texel; the error is below 1e-3 for skies of 512 x 256 texels.
@@ -105,15 +116,11 @@ private:
     struct Source {  // of a disc's samples
         ShadingBasis basis;
         float one_minus_cos;
-        float probability;
+        float probability;  // among the discs
     };
-    EnvironmentSample sample_picture(Vec2 u) const;
     Rgb picture_radiance(Vec2 uv) const;
-    float pdf_in_cell(int row, int column, Vec3 direction) const;
+    float cell_pdf(int row, int column) const;
     bool is_in_disc(size_t disc, Vec3 direction) const;
-    // uv: that of the direction in the picture.
-    Rgb radiance_at(Vec2 uv, Vec3 direction) const;
-    float pdf_at(Vec2 uv, Vec3 direction) const;
     void measure(const Image<Rgb>& means);
     void add_discs(const std::vector<Disc>& discs);
 

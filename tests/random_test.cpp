@@ -12,8 +12,8 @@ using namespace pluvia;
 
 namespace {
 
-constexpr Draw all_draws[] = {Draw::lobe,      Draw::bsdf,     Draw::light_choice, Draw::light_point, Draw::light_pick,
-                              Draw::sky_point, Draw::roulette, Draw::pixel,        Draw::lens};
+constexpr Draw all_draws[] = {Draw::lobe,      Draw::bsdf,      Draw::light_choice, Draw::light_point, Draw::light_pick,
+                              Draw::sun_point, Draw::sky_point, Draw::roulette,     Draw::pixel,       Draw::lens};
 
 /// Sum of products of centred numbers in units of its standard deviation, for numbers that are independent.
 double correlation_in_sigma(const std::vector<double>& a, const std::vector<double>& b) {

@@ -42,6 +42,7 @@ enum class Draw : uint32_t {
     light_choice,
     light_point,
     sky_point,
+    sun_point,
     light_pick,
     roulette,
     pixel,

@@ -46,7 +46,10 @@ Lights::Lights(const Scene& scene, const Environment& environment)
     if (!directional_.empty()) directional_choice_ = Distribution1D(lux);
     const double sky = environment.is_black() ? 0 : pi * luminance(environment.mean_radiance());
     const double beams = directional_.empty() ? 0 : directional_choice_.total();
-    if (!directional_.empty()) environment_share_ = sky > 0 ? std::clamp(float(sky / (sky + beams)), 0.1f, 0.9f) : 0.0f;
+    if (directional_.empty()) return;
+    environment_share_ = sky > 0 ? std::clamp(float(sky / (sky + beams)), 0.1f, 0.9f) : 0.0f;
+    const double discs = environment.disc_illuminance();
+    disc_share_ = environment.has_sun() ? std::clamp(float(discs / (discs + beams)), 0.1f, 0.9f) : 0.0f;
 }
 
 void Lights::add_punctual(const PunctualLight& light, std::vector<LightBounds>& all) {
@@ -157,10 +160,26 @@ std::optional<LightSample> Lights::sample_distant(float u_choice, Vec2 u) const 
         if (!(s.pdf > 0)) return std::nullopt;
         return LightSample{s.wi, infinity, s.radiance, s.pdf * environment_share_, false};
     }
-    const auto choice = directional_choice_.sample((u_choice - environment_share_) / (1 - environment_share_));
+    return directional_light((u_choice - environment_share_) / (1 - environment_share_), 1 - environment_share_);
+}
+
+LightSample Lights::directional_light(float u_choice, float probability) const {
+    const auto choice = directional_choice_.sample(u_choice);
     const PunctualLight& light = directional_[choice.cell];
-    const float probability = directional_choice_.probability(choice.cell) * (1 - environment_share_);
-    return LightSample{-light.direction, infinity, light.intensity, probability, true};
+    return {-light.direction, std::numeric_limits<float>::infinity(), light.intensity,
+            directional_choice_.probability(choice.cell) * probability, true};
+}
+
+LightSample Lights::sample_sky(Vec2 u) const {
+    const EnvironmentSample s = environment_->sample_sky(u);
+    return {s.wi, std::numeric_limits<float>::infinity(), s.radiance, s.pdf, false};
+}
+
+LightSample Lights::sample_sun(float u_choice, Vec2 u) const {
+    if (u_choice >= disc_share_)
+        return directional_light((u_choice - disc_share_) / (1 - disc_share_), 1 - disc_share_);
+    const EnvironmentSample s = environment_->sample_sun(u, u_choice / disc_share_);
+    return {s.wi, std::numeric_limits<float>::infinity(), s.radiance, s.pdf * disc_share_, false};
 }
 
 }  // namespace pluvia

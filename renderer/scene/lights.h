@@ -54,6 +54,16 @@ public:
     /// Pdf with respect to solid angle at which sample_distant picks this direction of the environment.
     float pdf_distant(Vec3 direction) const { return environment_share_ * environment_->pdf(direction); }
 
+    /// The same in two samples: one of the sky, the other of what shines from few directions: sun, moon and
+    /// directional lights.
+    bool has_sky() const { return environment_->has_sky(); }
+    bool has_sun() const { return environment_->has_sun() || !directional_.empty(); }
+    LightSample sample_sky(Vec2 u) const;
+    LightSample sample_sun(float u_choice, Vec2 u) const;
+    /// Pdf with respect to solid angle at which sample_sun picks this direction of sun and moon. Of the sky it is that
+    /// of Environment::sky().
+    float pdf_sun(const EnvironmentSample& sun) const { return disc_share_ * sun.pdf; }
+
 private:
     struct EmissiveTriangle {
         int instance, triangle;
@@ -64,6 +74,7 @@ private:
     };
     void add_punctual(const PunctualLight& light, std::vector<LightBounds>& all);
     void add_triangles(int instance, std::vector<LightBounds>& all);
+    LightSample directional_light(float u_choice, float probability) const;
     LightSample triangle_light(Vec3 place, const EmissiveTriangle& triangle, float probability, Vec2 u) const;
 
     const Scene* scene_;
@@ -74,6 +85,7 @@ private:
     std::vector<PunctualLight> directional_;
     Distribution1D directional_choice_;
     float environment_share_ = 1;  // probability that sample_distant asks the environment
+    float disc_share_ = 1;         // and sample_sun its discs
     LightTree tree_;
 };
 

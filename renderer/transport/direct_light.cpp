@@ -90,6 +90,13 @@ Rgb through_panes(const RayScene& ray_scene, Ray ray, OpacityTest opacity, Count
     return left;
 }
 
+/// Of a single sample there is nothing to pick.
+Rgb light_of_one(const RayScene& ray_scene, const Vertex& v, const LightSample& light, Draw draw, Counters& counters) {
+    Pick pick(0);
+    pick.add(v, light, 1);
+    return visible_part(ray_scene, pick, v, draw, counters);
+}
+
 /// Choice i of a few, stratified.
 float stratified(float u, int i, int count) {
     return std::min((float(i) + u) / float(count), 0x1.fffffep-1f);
@@ -110,28 +117,34 @@ Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light
     }
 }
 
+Rgb distant_light(const Lights& lights, const RayOrigin& origin, Vec3 direction) {
+    const EnvironmentSample sky = lights.environment().sky(direction), sun = lights.environment().sun(direction);
+    if (!(origin.pdf > 0)) return sky.radiance + sun.radiance;
+    if (!origin.parts_sky_and_sun)
+        return (sky.radiance + sun.radiance) * power_heuristic(origin.pdf, lights.pdf_distant(direction));
+    return sky.radiance * power_heuristic(origin.pdf, sky.pdf) +
+           sun.radiance * power_heuristic(origin.pdf, lights.pdf_sun(sun));
+}
+
 Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& v, Counters& counters) {
     Rgb sum;
-    const Vec2 choice = v.u.get_2d(Draw::light_choice), pick_u = v.u.get_2d(Draw::light_pick);
+    const Vec2 choice = v.u.get_2d(Draw::light_choice);
     if (lights.has_local()) {
         counters.count(Feature::local_light);
         const Receiver receiver = receiver_at(v.surface, v.bsdf);
-        Pick pick(pick_u.x);
+        Pick pick(v.u.get_1d(Draw::light_pick));
         for (int i = 0; i < local_light_samples; ++i)
             if (const auto light = lights.sample_local(receiver, stratified(choice.x, i, local_light_samples),
                                                        shifted(v.u.get_2d(Draw::light_point), i)))
                 pick.add(v, *light, local_light_samples);
         sum += visible_part(ray_scene, pick, v, Draw::light_point, counters);
     }
-    if (lights.has_distant()) {
-        counters.count(Feature::distant_light);
-        Pick pick(pick_u.y);
-        for (int i = 0; i < distant_light_samples; ++i)
-            if (const auto light = lights.sample_distant(stratified(choice.y, i, distant_light_samples),
-                                                         shifted(v.u.get_2d(Draw::sky_point), i)))
-                pick.add(v, *light, distant_light_samples);
-        sum += visible_part(ray_scene, pick, v, Draw::sky_point, counters);
-    }
+    if (lights.has_sky() || lights.has_sun()) counters.count(Feature::distant_light);
+    if (lights.has_sky())
+        sum += light_of_one(ray_scene, v, lights.sample_sky(v.u.get_2d(Draw::sky_point)), Draw::sky_point, counters);
+    if (lights.has_sun())
+        sum += light_of_one(ray_scene, v, lights.sample_sun(choice.y, v.u.get_2d(Draw::sun_point)), Draw::sun_point,
+                            counters);
     return sum;
 }
 

@@ -11,19 +11,22 @@
 
 namespace pluvia {
 
-/// Light samples of each kind that compete at a vertex for one shadow ray.
-constexpr int local_light_samples = 8, distant_light_samples = 1;
+/// Samples of lamps that compete at a vertex for one shadow ray.
+constexpr int local_light_samples = 8;
 
 /// Where light samples were drawn, as far as the weight of a ray that left there needs it.
 struct RayOrigin {
     float pdf = 0;      // of the ray's direction, per solid angle; 0 = no light sample was drawn there (camera, delta)
     Receiver receiver;  // what the light samples were drawn for
-    int local_samples = 1, distant_samples = 1;
+    int local_samples = 1;
+    bool parts_sky_and_sun = false;  // of these one sample each, instead of one of all that is distant
 
     /// Weight of light that the ray has met against samples of it, where pdf > 0. light_pdf: of one sample.
     float weight_of_local(float light_pdf) const { return power_heuristic(pdf, float(local_samples) * light_pdf); }
-    float weight_of_distant(float light_pdf) const { return power_heuristic(pdf, float(distant_samples) * light_pdf); }
 };
+
+/// Light of the environment that a ray meets, weighed against samples of it.
+Rgb distant_light(const Lights& lights, const RayOrigin& origin, Vec3 direction);
 
 /// For what lights are chosen: those below the horizon, too, where they shine through.
 inline Receiver receiver_at(const Surface& surface, const PreparedBsdf& bsdf) {

@@ -24,8 +24,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (!ray_scene_->closest_hit(ray, {sampler.key(Draw::opacity, bounce)}, hit, counters)) {
             if (lights_->environment().is_black()) return result;
             counters.count(Feature::environment);
-            const float mis = origin.pdf > 0 ? origin.weight_of_distant(lights_->pdf_distant(ray.direction)) : 1.0f;
-            result.radiance += throughput * lights_->environment().radiance(ray.direction) * mis;
+            result.radiance += throughput * distant_light(*lights_, origin, ray.direction);
             return result;
         }
         if (bounce == first_bounce) result.distance = hit.distance;
@@ -71,8 +70,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         else if (last)
             return result;
         else
-            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples,
-                      distant_light_samples};
+            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples, true};
         if (next->transmitted && surface.volume >= 0) {
             if (surface.from_front)
                 media.enter(surface.volume);
