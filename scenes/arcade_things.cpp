@@ -131,7 +131,7 @@ Assembly round_lantern(Palette& palette) {
     Assembly a;
     const int paper = palette("red_paper", [](Scene&) {
         Material m = matte("red_paper", {0.7f, 0.06f, 0.03f}, 0.8f);
-        m.emission = nits({1, 0.1f, 0.04f}, 160);
+        m.emission = nits({1, 0.035f, 0.012f}, 15);
         m.lamp = true;
         return m;
     });

@@ -9,6 +9,11 @@ const std::vector<Builder>& builders() {
          build_citystreet},
         {"japanesestreet", "Japanese shopping street with lit signs, vending machines, poles and cables",
          build_japanesestreet},
+        {"avenue", "wide city street of tall houses, trees and taxis", build_avenue},
+        {"terrace", "narrow city street of dwellings with stoops under many trees", build_terrace},
+        {"brickyard", "city street of tall brick fronts with fire escapes, without trees", build_brickyard},
+        {"backstreet", "narrow Japanese street of small bars", build_backstreet},
+        {"stationstreet", "wide Japanese street of tall houses with many signs, without poles", build_stationstreet},
     };
     return all;
 }

@@ -28,4 +28,11 @@ Scene build_citystreet();
 /// A shopping street of tiled houses under signs, 7.8 m between walls and 76 m long. Cameras: camera1 to camera10.
 Scene build_japanesestreet();
 
+// Five more by other plans. Cameras: front, back, sideleft, sideright.
+Scene build_avenue();
+Scene build_terrace();
+Scene build_brickyard();
+Scene build_backstreet();
+Scene build_stationstreet();
+
 }  // namespace pluvia

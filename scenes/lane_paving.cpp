@@ -1,7 +1,11 @@
 // Ground of the lane: worn slabs with open joints on a slight crown, drains with covers and grates at both sides.
 #include "scenes/lane.h"
+#include "scenes/noise.h"
+
+#include "renderer/core/units.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pluvia::lane {
 namespace {
@@ -10,10 +14,30 @@ namespace {
 constexpr Transform lying = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
 constexpr float crown = 0.03f;  // how much the middle lies higher than the edges
 
+/// A slab worn by feet: its upper side is a fine sheet with hollows and rounded edges, for water to stand in and low
+/// light to graze.
 void add_slab(Shape& shape, float x0, float x1, float z_near, float z_far, float top, Chance& chance) {
-    const float w = x1 - x0, d = z_near - z_far;
+    constexpr int pieces = 24;
+    const float w = x1 - x0, d = z_near - z_far, u = chance(0, 500), v = chance(0, 500);
+    const Tint tint = chance.tint(0.42f);
+    const auto surface = [&](float s, float t) {
+        // Closer points towards the edges, which are rounded over 25 mm.
+        const float x = 0.5f * w * std::sin(0.5f * pi * (2 * s - 1)), y = 0.5f * d * std::sin(0.5f * pi * (2 * t - 1));
+        const float edge = std::min(0.5f * w - std::abs(x), 0.5f * d - std::abs(y));
+        const float drop = 1 - std::min(edge / 0.025f, 1.0f);
+        const float worn = fractal_noise({x * 5 + u, y * 5 + v}, 1024, 1024, 3, 81) - 0.5f;
+        const float dressed = fractal_noise({x * 24 + u, y * 24 + v}, 1024, 1024, 2, 82) - 0.5f;
+        return SheetPoint{{x, y, -0.011f * drop * drop + (1 - drop) * (0.016f * worn + 0.004f * dressed)}, {x, -y}};
+    };
     Shape slab;
-    add_box(slab, {-0.5f * w, -0.5f * d, -0.12f}, {0.5f * w, 0.5f * d, 0}, chance.tint(0.42f), 0.011f);
+    add_sheet(slab, pieces, pieces, surface, tint);
+    const float skirt = -0.015f;
+    const Vec3 corners[4] = {
+        {-0.5f * w, -0.5f * d, 0}, {0.5f * w, -0.5f * d, 0}, {0.5f * w, 0.5f * d, 0}, {-0.5f * w, 0.5f * d, 0}};
+    for (int k = 0; k < 4; ++k) {
+        const Vec3 a = corners[k], b = corners[(k + 1) % 4], up = {0, 0, skirt}, down = {0, 0, -0.12f};
+        add_facet(slab, {a + down, b + down, b + up, a + up}, tint);
+    }
     const float tilt = chance(-0.007f, 0.007f), roll = chance(-0.007f, 0.007f);
     const Transform settle = rotate(0.5 * tilt, 0.5 * roll, 0, 1);
     append(shape, slab,

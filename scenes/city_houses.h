@@ -1,4 +1,4 @@
-// The kinds of houses of the city street.
+// The kinds of houses of city streets.
 #pragma once
 
 #include "scenes/facade.h"

@@ -1,4 +1,4 @@
-#include "scenes/citystreet_houses.h"
+#include "scenes/city_houses.h"
 
 namespace pluvia {
 
