@@ -66,7 +66,7 @@ TEST_CASE("the light nearest to a light's direction is that light, and its mirro
 TEST_CASE("streaks under the light on the axis and in the mean over all lights agree with a direct trace") {
     StreakTracing settings;
     settings.width = 4;
-    settings.rays_per_pixel = 80;
+    settings.rays_per_pixel = 300;
     settings.light_radius = 0.3f;  // large, so that chance decides little
     const StreakDatabase database = trace_streaks(settings, ignore_progress);
     const double solid_angle = 2 * 3.14159265358979 * (1 - std::cos(0.3));
