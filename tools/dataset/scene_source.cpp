@@ -64,10 +64,10 @@ const FrameScene& SceneSource::at(size_t index, const RenderOptions& options) {
     RenderOptions file = options;
     if (scene.is_built) {
         file.scene = fmt::format("{}/{}.glb", scratch_, scene.source);
-        save_glb(find_builder(scene.source)->build(), file.scene);
+        std::error_code ignored;
+        if (!std::filesystem::exists(file.scene, ignored)) save_glb(find_builder(scene.source)->build(), file.scene);
     }
     loaded_ = load_frame_scene(file);
-    if (scene.is_built) std::filesystem::remove(file.scene);
     scene_ = index, time_ = time;
     return *loaded_;
 }
