@@ -10,7 +10,7 @@ namespace pluvia {
 
 // The layers add up to the rainy picture, but files are rounded and the background is a JPEG: blocks of 16 pixels a
 // side may be off by this many of 255 displayed levels on average, and the whole picture by that many, beyond twice
-// what the codec does to the rainy picture's own blocks. Rounding alone leaves below 0.6 and 0.1.
+// what the codec does to the rainy picture's own blocks.
 constexpr float block_tolerance = 4, picture_tolerance = 1;
 
 /// Faults of a frame whose files have the recorded bytes, each "PATH: WHAT". Throws Error (input) for one that is no
