@@ -10,8 +10,8 @@ namespace pluvia {
 
 class WorkFolder {
 public:
-    /// Makes DATASET/work/SHARD_HOST_PROCESS and removes those that runs of this machine left when they were killed.
-    /// Throws Error (render_failed) when that is impossible.
+    /// Makes DATASET/work/SHARD_HOST_PROCESS and removes those of the same host whose process is no more. Throws
+    /// Error (render_failed) when that is impossible.
     WorkFolder(const std::string& dataset, Shard shard);
     /// Removes it, and DATASET/work when nobody else is in it.
     ~WorkFolder();
