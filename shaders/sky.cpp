@@ -14,7 +14,7 @@ namespace pluvia {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr int picture_width = 1024, picture_height = 512;
+constexpr int picture_width = 512, picture_height = 512;
 
 using Picture = Image<Rgb>;
 

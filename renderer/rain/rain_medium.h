@@ -66,27 +66,33 @@ public:
 
 private:
     static constexpr std::array<double, 3> proposal_intensities_mm_per_h = {5, 25, 125};
+    static constexpr size_t proposals = proposal_intensities_mm_per_h.size();
 
-    /// Extinction and its integral over the view depth, at even steps. Extinction is linear between them, so that
-    /// transmittance, pdf and samples agree to float rounding.
-    struct Profile {
-        std::vector<float> extinction, depth;  // 1/m; optical depth from view depth 0 along the view axis
+    /// A view depth between two rows of the table: at offset `s` of a step from row `row`, which past the last row is
+    /// above 1.
+    struct Place {
+        const float* row;
+        float s;
     };
-    static bool is_dry(const RainSegment& segment, float distance);
-    static Profile make_profile(double intensity, double step, double diameter_per_depth);
-    float extinction_at(const Profile& profile, float z) const;
-    float depth_at(const Profile& profile, float z) const;
-    /// View depth at which the optical depth is reached; depth >= 0.
-    float find_depth(const Profile& profile, float depth) const;
-    float depth_between(const Profile& profile, const RainSegment& segment, float distance) const {
-        const float z0 = segment.begin * segment.cosine, z1 = distance * segment.cosine;
-        return std::max(0.0f, (depth_at(profile, z1) - depth_at(profile, z0)) / segment.cosine);
-    }
-    /// The same without what dry parts lack.
-    float wet_depth_between(const Profile& profile, const RainSegment& segment, float distance) const;
+    Place place_at(float z) const;
+    /// Of a profile: the proposals first, then the intensities.
+    float extinction(size_t profile, Place place) const;
+    float depth(size_t profile, Place place) const;
 
-    std::array<Profile, 3> proposal_;
-    std::vector<Profile> profiles_;  // one per intensity
+    void add_profile(size_t profile, double intensity, double step, double diameter_per_depth);
+    static bool is_dry(const RainSegment& segment, float distance);
+    /// View depth at which the optical depth of a proposal is reached; depth >= 0.
+    float find_depth(size_t proposal, float depth) const;
+    /// Of the proposals from a segment's begin to its end, above 0; false where there is nothing that scatters.
+    bool total_depths(const RainSegment& segment, std::array<float, proposals>& totals) const;
+    float drop_pdf(const RainSegment& segment, const std::array<float, proposals>& totals, float distance) const;
+
+    /// Per step of the view depth, per profile: extinction (1/m) and its integral from view depth 0 along the view
+    /// axis. Side by side, since a place is asked for all profiles. Extinction is linear between the rows, so that
+    /// transmittance, pdf and samples agree to float rounding.
+    std::vector<float> table_;
+    std::array<std::vector<float>, proposals> proposal_depth_;  // the same, to be searched
+    size_t intensities_, row_size_;
     float steps_per_metre_, step_;
     float near_, bottom_, top_;  // metres: view depth; world y
     float fog_extinction_;

@@ -124,7 +124,8 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
     }
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
     append_scattered(
-        scratch, sampler.get_1d(Draw::streak_choice), [&](float weight) { return worth(weight * brightness, segment); },
+        scratch, sampler.get_1d(Draw::streak_choice),
+        [&](float weight) { return worth(weight * brightness, segment, settings_.medium_roulette); },
         [&] {
             counters.count(Feature::medium_path);
             return event.trace(counters);
@@ -161,7 +162,7 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
     medium_->weigh(scatterer, in_rain, distance, density, scratch.scattering);
     append_scattered(
         scratch, sampler.get_1d(Draw::streak_choice),
-        [&](float weight) { return worth(weight * luminance(contribution), segment); },
+        [&](float weight) { return worth(weight * luminance(contribution), segment, settings_.medium_roulette); },
         [&] {
             return contribution *
                    visible_share(tracer_->ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
@@ -193,13 +194,15 @@ ScatterFunction RainStage::lens_scatter(const StreakHit& hit, const CameraSegmen
     const Ray& ray = segment.view_ray;
     const float u = sampler.get_1d(Draw::medium_distance);
     LensScatter scatter{DropLens(hit.width)};
-    for (int i = 0; i < DropLens::max_moments; ++i) {
-        const float part = (float(i) + u) / float(DropLens::max_moments);
+    // A pixel sees a wide drop at more of its places than a narrow one.
+    const int moments = std::clamp(int(hit.width / 2), 1, DropLens::max_moments);
+    for (int i = 0; i < moments; ++i) {
+        const float part = (float(i) + u) / float(moments);
         const float time = (hit.covered.begin + part * hit.covered.fraction()) * bins_->exposure_time();
         const Vec3 to_centre = streak.start + streak.velocity * time - ray.origin;
         const Vec3 across = ray.direction * dot(to_centre, ray.direction) - to_centre;
         scatter.lens.add(drop.at(bins_->shutter_open() + double(time)), segment.ray.direction,
-                         bins_->world_vector(across / streak.radius), DropLens::max_moments);
+                         bins_->world_vector(across / streak.radius), moments);
     }
     return scatter;
 }
@@ -226,7 +229,7 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
     const bool paper = settings_.composition == Composition::paper;
     const float weight = paper ? float(settings_.paper_gain) * paper_weight(hit, segment) : hit.covered.fraction();
-    const float q = worth(weight * brightness, segment);
+    const float q = worth(weight * brightness, segment, settings_.streak_roulette);
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
     counters.count(Feature::streak_path);
     const Rgb light = event.trace(counters);

@@ -29,8 +29,10 @@ struct StreakSettings {
     double paper_gain = 24.5;
     /// What streaks look like with the paper's composition; null: even.
     std::shared_ptr<const StreakTextures> textures;
-    /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. Streaks, medium.
-    double roulette = 0.1;
+    /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. A streak stands
+    /// out of its surroundings, so that its noise is seen; the medium is everywhere, and its noise stays far below the
+    /// background's.
+    double streak_roulette = 0.1, medium_roulette = 0.2;
 };
 
 /// From the camera to the first surface.
@@ -93,8 +95,8 @@ private:
     ScatterFunction lens_scatter(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler) const;
     float paper_weight(const StreakHit& hit, const CameraSegment& segment) const;
     /// Probability with which light is computed that may bring this luminance.
-    float worth(float expected, const CameraSegment& segment) const {
-        return std::min(1.0f, expected / (float(settings_.roulette) * segment.background_luminance));
+    static float worth(float expected, const CameraSegment& segment, double roulette) {
+        return std::min(1.0f, expected / (float(roulette) * segment.background_luminance));
     }
 
     const PathTracer* tracer_;
