@@ -129,11 +129,10 @@ TEST_CASE("a camera's velocity is that of its node over the exposure") {
     draft.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
     const int car = draft.add_root({{"name", "car"}, {"camera", 0}});
     const auto velocity = [&](double time) {
-        const TemporaryFolder folder;
-        GltfContents contents;
-        load_gltf(write(folder, "draft.gltf", draft.gltf()), {.time = time}, &contents);
-        REQUIRE(contents.camera_velocities.size() == 1);
-        return contents.camera_velocities[0];
+        const Scene scene = load_at(draft, time);
+        REQUIRE(scene.cameras.size() == 1);
+        CHECK(scene.cameras[0].angular_velocity == Vec3d());
+        return scene.cameras[0].velocity;
     };
     CHECK(velocity(0.5) == Vec3d());
     animate(draft, car, "translation", "LINEAR", {0, 1, 2}, {0, 0, 0, 0, 0, -10, 0, 0, -30});
@@ -141,6 +140,19 @@ TEST_CASE("a camera's velocity is that of its node over the exposure") {
     check_near(velocity(1), {0, 0, -15}, 1e-4);  // half of the exposure on each side
     check_near(velocity(0), {0, 0, -10}, 1e-4);  // what is before the first key does not count
     CHECK(velocity(5) == Vec3d());
+}
+
+TEST_CASE("a camera turns as fast as its node, whatever the node above is turned and stretched by") {
+    GltfDraft draft = triangle_draft();
+    draft.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    const int eye = draft.add("nodes", {{"camera", 0}, {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}});
+    const int car = draft.add_root({{"children", {eye}}, {"scale", {2, 2, 2}}});
+    // A twelfth of a turn a second about the vertical.
+    const double s = std::sin(std::numbers::pi / 12), c = std::cos(std::numbers::pi / 12);
+    animate(draft, car, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, s, 0, c});
+    check_near(load_at(draft, 0.5).cameras[0].angular_velocity, {0, std::numbers::pi / 6, 0}, 1e-4);
+    check_near(load_at(draft, 0.5).cameras[0].velocity, {});
+    CHECK(load_at(draft, 7).cameras[0].angular_velocity == Vec3d());
 }
 
 TEST_CASE("lights move with their nodes") {

@@ -253,8 +253,7 @@ TEST_CASE("a camera's path is an animation in the file: it is where its keys say
     // Keys are in single precision; the rotation is one of doubles.
     CHECK(length(placed.translation + back.origin - (start + Vec3d(0, 0, -1.5))) < 1e-6);
     CHECK(length(placed.column_z - eye.scene_from_camera.column_z) < 1e-12);
-    REQUIRE(contents.camera_velocities.size() == 1);
-    CHECK(length(contents.camera_velocities[0] - Vec3d(0, 0, -1.5)) < 1e-5);
+    CHECK(length(back.cameras[0].velocity - Vec3d(0, 0, -1.5)) < 1e-5);
     REQUIRE(contents.animations.size() == 1);
     CHECK(contents.animations[0].duration == 2);
 }

@@ -11,17 +11,6 @@
 #include <iostream>
 
 namespace pluvia {
-namespace {
-
-/// m/s, as the file animates the camera.
-Vec3d velocity_of(const FrameScene& scene, const Camera& camera) {
-    for (size_t i = 0; i < scene.camera_velocities.size(); ++i)
-        if (scene.scene.cameras[i].name == camera.name) return scene.camera_velocities[i];
-    return {};
-}
-
-}  // namespace
-
 FrameScene load_frame_scene(const RenderOptions& options) {
     const CameraSettings camera = camera_settings(options);
     GltfContents contents;
@@ -30,7 +19,6 @@ FrameScene load_frame_scene(const RenderOptions& options) {
         options.scene, {camera.mid_exposure, camera.exposure_time, options.variant, options.allow_outside}, &contents);
     for (const std::string& warning : result.scene.warnings)
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
-    result.camera_velocities = contents.camera_velocities;
     result.hash = content_hash(result.scene);
     result.is_animated = !contents.animations.empty();
     return result;
@@ -54,13 +42,11 @@ FrameSettings::FrameSettings(const RenderOptions& options)
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
                            const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
     const Camera camera = find_camera(frame.scene, options.camera);
-    CameraSettings camera_options = settings.camera;
-    if (options.camera_velocity.empty()) camera_options.velocity = velocity_of(frame, camera);
     Scene& scene = frame.scene;
     if (lamp_count(scene) > 0 && !lamps_are_on(options.light, settings.environment)) switch_off_lamps(scene);
     scene.unlit_luminance = unlit_luminance(settings.ev100, settings.environment);
 
-    RenderedFrame result{{scene.name, frame.hash, scene.origin, camera.name, make_view(camera, camera_options),
+    RenderedFrame result{{scene.name, frame.hash, scene.origin, camera.name, make_view(camera, settings.camera),
                           to_json(options), settings.render.rain.intensities_mm_per_h},
                          0,
                          {}};

@@ -12,7 +12,6 @@ namespace pluvia {
 /// A scene at the time of a frame, as a file or a builder gives it.
 struct FrameScene {
     Scene scene;
-    std::vector<Vec3d> camera_velocities;  // of Scene::cameras, m/s; empty where nothing moves
     uint64_t hash = 0;                     // of the content, whatever is switched off later
     bool is_animated = false;
 };

@@ -14,6 +14,7 @@ struct View {
     Vec3d position;                                             // world, metres
     Vec3d right = {1, 0, 0}, up = {0, 1, 0}, back = {0, 0, 1};  // camera axes in the world, orthonormal
     Vec3d velocity;                                             // of the camera, m/s
+    Vec3d angular_velocity;                                     // of its turning, rad/s about this axis of the world
     double lens_radius = 0;                                     // metres; 0 = pinhole
     double focus_distance = 10;                                 // view depth in focus, metres; unused by a pinhole
     double shutter_open = 0;                                    // seconds of the sequence

@@ -68,6 +68,12 @@ Vec3d camera_at_open(const View& view) {
     return view.position - view.velocity * (view.exposure_time / 2);
 }
 
+/// Tangent of an angle off the axis with so much added; below a right angle.
+double widened(double tangent, double angle) {
+    constexpr double largest = 1.5;
+    return angle > 0 ? std::max(tangent, std::tan(std::min(std::atan(tangent) + angle, largest))) : tangent;
+}
+
 SearchRegion search_region(const View& view, const RainSettings& settings, const SizeClass& size) {
     const double exposure = view.exposure_time;
     const double radius = size.d2 / 2 * widening(settings, farthest_depth(view, settings, size));
@@ -84,7 +90,10 @@ SearchRegion search_region(const View& view, const RainSettings& settings, const
 
     SearchRegion region;
     region.camera = camera_at_open(view);
-    const double x = view.width / (2 * view.focal_pixels), y = view.height / (2 * view.focal_pixels);
+    // As the camera turns, what is at the picture's corner moves farthest.
+    const double edge_x = view.width / (2 * view.focal_pixels), edge_y = view.height / (2 * view.focal_pixels);
+    const double turn = length(view.angular_velocity) * exposure / 2 * std::hypot(1, edge_x, edge_y);
+    const double x = widened(edge_x, turn), y = widened(edge_y, turn);
     const std::array<Vec3d, 4> side_normals = {Vec3d(1, 0, -x), Vec3d(-1, 0, -x), Vec3d(0, 1, -y), Vec3d(0, -1, -y)};
     double margin = 0;
     for (int i = 0; i < 4; ++i) {
@@ -137,9 +146,15 @@ std::vector<Cell> cells_in_region(const DropPopulation& population, int size_cla
 
 Streak streak_of(const Drop& drop, const DropPopulation& population, const View& view, double widening) {
     const auto to_view = [&](Vec3d v) { return Vec3d(dot(v, view.right), dot(v, view.up), -dot(v, view.back)); };
-    return {Vec3(to_view(drop.position - camera_at_open(view))),
-            Vec3(to_view(drop_velocity(population, drop.diameter) - view.velocity)),
-            float(drop.diameter / 2 * widening), drop.threshold_mm_per_h, drop.key};
+    Vec3d start = drop.position - camera_at_open(view);
+    Vec3d velocity = drop_velocity(population, drop.diameter) - view.velocity;
+    if (!(view.angular_velocity == Vec3d())) {
+        const Vec3d turning = cross(view.angular_velocity, start + velocity * (view.exposure_time / 2));
+        start += turning * (view.exposure_time / 2);
+        velocity = velocity - turning;
+    }
+    return {Vec3(to_view(start)), Vec3(to_view(velocity)), float(drop.diameter / 2 * widening), drop.threshold_mm_per_h,
+            drop.key};
 }
 
 void sort_by_depth(std::vector<Streak>& streaks, float exposure_time) {

@@ -27,6 +27,9 @@ constexpr double painted_reach = 20;
 
 /// A falling drop relative to the camera during one exposure. View axes: x right, y up, z view depth. Single precision
 /// is enough: relative to the camera it rounds directions by 1e-7, a few 1e-4 pixels, and that the same for all rays.
+/// Where the camera turns, the path is that of a drop at mid-exposure going straight on: with a turn of a radians and a
+/// drop that moves m metres during the exposure at d metres it is off by at most f (a^2 / 8 + a m / (4 d)) pixels near
+/// the axis: for a car in a bend (0.5 rad/s, 1/60 s, f = 1000 pixels) 0.01 pixels, and 0.3 more for drops at 1 m.
 struct Streak {
     Vec3 start;                // centre of the drop when the shutter opens
     Vec3 velocity;             // relative to the camera, m/s

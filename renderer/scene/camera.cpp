@@ -19,7 +19,8 @@ View make_view(const Camera& camera, const CameraSettings& settings) {
     view.back = normalize(t.column_z);
     view.right = normalize(cross(t.column_y, view.back));
     view.up = cross(view.back, view.right);
-    view.velocity = settings.velocity;
+    view.velocity = settings.velocity.value_or(camera.velocity);
+    view.angular_velocity = camera.angular_velocity;
     if (settings.f_number > 0)
         view.lens_radius = view.focal_pixels * sensor_width / settings.width / (2 * settings.f_number);
     view.focus_distance = settings.focus_distance;

@@ -4,6 +4,7 @@
 #include "renderer/core/view.h"
 #include "renderer/scene/scene.h"
 
+#include <optional>
 #include <string>
 
 namespace pluvia {
@@ -18,7 +19,7 @@ struct CameraSettings {
     double focus_distance = 10;       // metres of view depth
     double exposure_time = 1.0 / 60;  // seconds
     double mid_exposure = 0;          // seconds of the sequence
-    Vec3d velocity = {};              // of the camera, m/s
+    std::optional<Vec3d> velocity;    // m/s, where it is not to be the camera's own
 };
 
 View make_view(const Camera& camera, const CameraSettings& settings);

@@ -13,7 +13,7 @@ namespace pluvia {
 
 struct GltfSettings {
     double time = 0;                  // seconds at which animations are sampled
-    double exposure_time = 1.0 / 60;  // seconds around it over which a camera's velocity is measured
+    double exposure_time = 1.0 / 60;  // seconds around it over which a camera's motion is measured
     std::string variant = "";         // of KHR_materials_variants; empty: the materials that meshes have without one
     bool allow_outside = false;       // files that lie outside of the scene's folder may be read
 };
@@ -32,7 +32,6 @@ struct GltfContents {
     std::vector<Animation> animations;
     std::vector<std::string> variants;  // of KHR_materials_variants
     std::vector<Extension> extensions;
-    std::vector<Vec3d> camera_velocities;  // of Scene::cameras during the exposure, m/s
 };
 
 /// Reads, checks and rebases a scene. An animated file's coordinates have the same origin at all times.

@@ -14,12 +14,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
 
 namespace pluvia {
 namespace {
+
+/// Of a node during the exposure.
+struct Movement {
+    Vec3d velocity, angular_velocity;  // m/s; rad/s
+};
 
 /// Adds what hangs on the nodes to the scene, each where it is at the time of the frame.
 class SceneFiller {
@@ -36,13 +42,13 @@ public:
         for (const PlacedNode& entry : tree_.nodes)
             if (model_.nodes[entry.node].extensions.count("KHR_lights_punctual")) add_light(entry);
     }
-    /// velocities: of the nodes, m/s; empty = all rest. Returns those of the cameras.
-    std::vector<Vec3d> add_cameras(const std::vector<Vec3d>& velocities) {
-        std::vector<Vec3d> added;
-        for (const PlacedNode& entry : tree_.nodes)
-            if (model_.nodes[entry.node].camera != -1 && add_camera(entry))
-                added.push_back(velocities.empty() ? Vec3d() : velocities[entry.node]);
-        return added;
+    /// movements: of the nodes; empty = all rest.
+    void add_cameras(const std::vector<Movement>& movements) {
+        for (const PlacedNode& entry : tree_.nodes) {
+            if (model_.nodes[entry.node].camera == -1 || !add_camera(entry) || movements.empty()) continue;
+            scene_.cameras.back().velocity = movements[entry.node].velocity;
+            scene_.cameras.back().angular_velocity = movements[entry.node].angular_velocity;
+        }
     }
 
 private:
@@ -236,9 +242,23 @@ private:
     std::map<std::tuple<int, int, std::vector<double>>, Parts> parts_;  // of mesh, skin and weights
 };
 
-/// Mean velocities of the nodes over the exposure, m/s; what is before the first key or after the last does not count.
-std::vector<Vec3d> node_velocities(const Animations& animations, const NodeTree& tree, const tinygltf::Model& model,
-                                   const GltfSettings& settings) {
+/// Angular velocity of a frame that is turned from one to the other in so many seconds, by less than half a turn.
+Vec3d angular_velocity(const Transform& before, const Transform& after, double seconds) {
+    const auto axes = [](const Transform& t) {
+        const Vec3d z = normalize(t.column_z), x = normalize(cross(t.column_y, z));
+        return std::array<Vec3d, 3>{x, cross(z, x), z};
+    };
+    const auto a = axes(before), b = axes(after);
+    Vec3d sine;  // of the angle, along the axis
+    double trace = 0;
+    for (size_t i = 0; i < 3; ++i) sine += cross(a[i], b[i]) * 0.5, trace += dot(a[i], b[i]);
+    const double s = length(sine);
+    return s > 0 ? sine * (std::atan2(s, (trace - 1) / 2) / (s * seconds)) : Vec3d();
+}
+
+/// Mean movements of the nodes over the exposure; what is before the first key or after the last does not count.
+std::vector<Movement> node_movements(const Animations& animations, const NodeTree& tree, const tinygltf::Model& model,
+                                     const GltfSettings& settings) {
     const double first = std::max(settings.time - settings.exposure_time / 2, animations.start());
     const double last = std::min(settings.time + settings.exposure_time / 2, animations.end());
     if (animations.empty() || !(last > first)) return {};
@@ -247,10 +267,11 @@ std::vector<Vec3d> node_velocities(const Animations& animations, const NodeTree&
     const auto before = place_again(tree, nodes);
     animations.pose(last, nodes);
     const auto after = place_again(tree, nodes);
-    std::vector<Vec3d> velocities(before.size());
-    for (size_t i = 0; i < velocities.size(); ++i)
-        velocities[i] = (after[i].translation - before[i].translation) / (last - first);
-    return velocities;
+    std::vector<Movement> movements(before.size());
+    for (size_t i = 0; i < movements.size(); ++i)
+        movements[i] = {(after[i].translation - before[i].translation) / (last - first),
+                        angular_velocity(before[i], after[i], last - first)};
+    return movements;
 }
 
 /// A centre that does not move with the animation, so that rain and positions agree from frame to frame: that of the
@@ -313,12 +334,9 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfConte
     const NodeTree tree = place_nodes(nodes, model.scenes[chosen].nodes, path);
     SceneFiller filler(model, path, tree, scene);
     filler.add_meshes(nodes);
-    const auto velocities = filler.add_cameras(node_velocities(animations, tree, model, settings));
+    filler.add_cameras(node_movements(animations, tree, model, settings));
     filler.add_lights();
-    if (contents) {
-        *contents = contents_of(model, path);
-        contents->camera_velocities = velocities;
-    }
+    if (contents) *contents = contents_of(model, path);
     check(scene, path);
     make_open_volumes_thin(scene);
     if (animations.empty())

@@ -70,6 +70,9 @@ struct Camera {
     /// Straight from key to key, which a file holds as an animation. A scene that was read is that of one moment: its
     /// cameras have none.
     std::vector<CameraKey> path = {};
+    // During the exposure at whose middle the scene was read:
+    Vec3d velocity = {};          // m/s
+    Vec3d angular_velocity = {};  // rad/s, about this axis
 };
 
 struct Scene {

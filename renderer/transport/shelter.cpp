@@ -13,8 +13,10 @@ void remove_sheltered(std::vector<Streak>& streaks, const View& view, const RayS
         for (size_t i = size_t(b) * block; i < std::min(streaks.size(), size_t(b + 1) * block); ++i) {
             const Streak& s = streaks[i];
             const Vec3 middle = s.start + s.velocity * float(view.exposure_time / 2);
-            const Vec3d position = view.position + view.world_vector_from_view(Vec3d(middle));
-            const Vec3d fall = view.world_vector_from_view(Vec3d(s.velocity)) + view.velocity;
+            const Vec3d from_camera = view.world_vector_from_view(Vec3d(middle)),
+                        position = view.position + from_camera;
+            const Vec3d fall = view.world_vector_from_view(Vec3d(s.velocity)) + view.velocity +
+                               cross(view.angular_velocity, from_camera);
             // Leaves let half of the drops through that they let half of the light through.
             const Ray upwards{Vec3(position), -Vec3(normalize(fall))};
             sheltered[i] = ray_scene.occluded(upwards, {s.key}, block_counters[b]);
