@@ -279,7 +279,7 @@ TEST_CASE("inspect tells what a scene requires, what a frame holds and what rain
 
 TEST_CASE("sky tells the light in numbers, and its panorama gives the same light back") {
     const TemporaryFolder folder;
-    const std::string exr = folder / "sky.exr";
+    const std::string exr = folder / "new/sky.exr";  // in a folder that is made
     const Outcome o = run_program("sky --hour 15 --weather fair --json -o " + exr);
     CAPTURE(o.err);
     REQUIRE(o.exit_code == 0);

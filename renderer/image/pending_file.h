@@ -16,10 +16,12 @@ namespace pluvia {
 /// Owns a temporary file in the folder of the final one; removes it unless committed. Errors are Error (render_failed).
 class PendingFile {
 public:
-    /// NAME.EXT is written as NAME.tmp.EXT. Throws when that cannot be created.
+    /// NAME.EXT is written as NAME.tmp.EXT; its folder is made. Throws when that is impossible.
     explicit PendingFile(const std::filesystem::path& path)
-        : path_(path), temporary_(path.parent_path() / (path.stem().string() + ".tmp" + path.extension().string())),
-          stream_(temporary_, std::ios::binary) {
+        : path_(path), temporary_(path.parent_path() / (path.stem().string() + ".tmp" + path.extension().string())) {
+        std::error_code ignored;  // said by the file that cannot be opened
+        std::filesystem::create_directories(path.parent_path(), ignored);
+        stream_.open(temporary_, std::ios::binary);
         if (!stream_) throw write_error(std::strerror(errno));
     }
     ~PendingFile() {
