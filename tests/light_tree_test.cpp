@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 namespace pluvia {
 namespace {
 
@@ -59,6 +61,21 @@ TEST_CASE("lights are chosen with the probability that is reported for them") {
     }
 }
 
+TEST_CASE("lights chosen side by side are those that are chosen one by one") {
+    const LightTree tree(random_lights(300));
+    for (uint64_t r = 0; r < 500; ++r) {
+        const Receiver receiver = random_receiver(r);
+        const float u = uniform(90, r, 0);
+        std::array<LightTree::Choice, 8> choices;
+        tree.choose(receiver, u, choices);
+        for (size_t i = 0; i < choices.size(); ++i) {
+            const auto alone = tree.choose(receiver, std::min((float(i) + u) / 8, 0x1.fffffep-1f));
+            CHECK(choices[i].light == (alone ? alone->light : -1));
+            if (alone) CHECK(choices[i].probability == alone->probability);
+        }
+    }
+}
+
 TEST_CASE("a light that reaches a receiver is never left out, one without power always") {
     const auto lights = random_lights(200);
     const LightTree tree(lights);
@@ -105,13 +122,15 @@ TEST_CASE("the pdf of a point on an emissive triangle is that of sampling it") {
     const Receiver receiver{{1.5f, 0, 0.3f}, {0, 1, 0}};
     int compared = 0;
     for (uint64_t i = 0; i < 2000; ++i) {
-        const auto light = lights.sample_local(receiver, uniform(80, i, 0), uniform_2d(80, i, 1));
-        if (!light || is_black(light->radiance)) continue;
+        const auto point = lights.choose_local(receiver, uniform(80, i, 0), uniform_2d(80, i, 1));
+        if (!point) continue;
+        const LightSample light = lights.illuminate(receiver.position, *point);
+        if (is_black(light.radiance)) continue;
         RayHit hit;
-        if (!ray_scene.closest_hit({receiver.position, light->wi}, {}, hit, counters)) continue;
-        if (std::abs(hit.distance - light->distance) > 1e-4f) continue;  // another one stands in front
+        if (!ray_scene.closest_hit({receiver.position, light.wi}, {}, hit, counters)) continue;
+        if (std::abs(hit.distance - light.distance) > 1e-4f) continue;  // another one stands in front
         ++compared;
-        CHECK(lights.pdf_local(receiver, hit.point) == doctest::Approx(light->pdf).epsilon(2e-3));
+        CHECK(lights.pdf_local(receiver, hit.point) == doctest::Approx(light.pdf).epsilon(2e-3));
     }
     CHECK(compared > 500);
 }

@@ -146,26 +146,72 @@ void LightTree::add_node(const Branch& branch, int parent, int place_in_parent) 
     }
 }
 
+float LightTree::sum(const Lanes& lanes) {
+    float total = 0;
+    for (const float lane : lanes) total += lane;
+    return total;
+}
+
+/// By importance, of which there is some; u becomes a number for what lies within.
+int LightTree::choose_lane(const Lanes& importance, float total, float& u) {
+    int lane = -1;
+    float left = u * total;
+    for (int i = 0; i < width; ++i) {
+        if (importance[i] == 0) continue;
+        lane = i;  // rounding may carry u beyond the sum: then it is the last child that counts
+        if (left < importance[i]) break;
+        left -= importance[i];
+    }
+    u = std::clamp(left / importance[lane], 0.0f, 0x1.fffffep-1f);
+    return lane;
+}
+
 std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, float u) const {
     if (nodes_.empty()) return std::nullopt;
     float probability = 1;
     for (const Node* node = nodes_.data();;) {
         const Lanes importance = importances(*node, receiver);
-        float total = 0;
-        for (const float i : importance) total += i;
+        const float total = sum(importance);
         if (!(total > 0)) return std::nullopt;
-        int lane = -1;
-        float left = u * total;
-        for (int i = 0; i < width; ++i) {
-            if (importance[i] == 0) continue;
-            lane = i;  // rounding may carry u beyond the sum: then it is the last child that counts
-            if (left < importance[i]) break;
-            left -= importance[i];
-        }
+        const int lane = choose_lane(importance, total, u);
         probability *= importance[lane] / total;
         if (node->child[lane] < 0) return Choice{~node->child[lane], probability};
-        u = std::clamp(left / importance[lane], 0.0f, 0x1.fffffep-1f);
         node = &nodes_[node->child[lane]];
+    }
+}
+
+void LightTree::choose(const Receiver& receiver, float u, std::span<Choice> choices) const {
+    std::array<float, max_choices> numbers;
+    std::array<int, max_choices> at;  // node, -1: arrived
+    const size_t count = std::min(choices.size(), max_choices);
+    for (size_t i = 0; i < count; ++i) {
+        numbers[i] = std::min((float(i) + u) / float(count), 0x1.fffffep-1f);
+        at[i] = nodes_.empty() ? -1 : 0;
+        choices[i] = {-1, 1};
+    }
+    for (bool on_the_way = true; on_the_way;) {
+        on_the_way = false;
+        int node = -1;  // whose importances these are
+        Lanes importance;
+        float total = 0;
+        for (size_t i = 0; i < count; ++i) {
+            if (at[i] < 0) continue;
+            if (at[i] != node) {
+                node = at[i];
+                importance = importances(nodes_[node], receiver);
+                total = sum(importance);
+            }
+            at[i] = -1;
+            if (!(total > 0)) continue;
+            const int lane = choose_lane(importance, total, numbers[i]), child = nodes_[node].child[lane];
+            choices[i].probability *= importance[lane] / total;
+            if (child < 0) {
+                choices[i].light = ~child;
+            } else {
+                at[i] = child;
+                on_the_way = true;
+            }
+        }
     }
 }
 
@@ -176,8 +222,7 @@ float LightTree::probability(const Receiver& receiver, int light) const {
     while (index >= 0) {
         const Node& node = nodes_[index];
         const Lanes importance = importances(node, receiver);
-        float total = 0;
-        for (const float i : importance) total += i;
+        const float total = sum(importance);
         if (!(total > 0)) return 0;
         probability *= importance[lane] / total;
         index = node.parent, lane = node.place_in_parent;

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pluvia {
@@ -27,12 +28,16 @@ public:
 
     bool empty() const { return nodes_.empty(); }
 
+    static constexpr size_t max_choices = 16;
     struct Choice {
         int light;
         float probability;
     };
     /// u: uniform in [0, 1). Empty where no light can reach the receiver.
     std::optional<Choice> choose(const Receiver& receiver, float u) const;
+    /// Several at once, stratified: choice i of n is that of choose() for (i + u) / n, with light -1 where that is
+    /// empty. They go down the tree side by side, since neighbours share most of the way. n: at most max_choices.
+    void choose(const Receiver& receiver, float u, std::span<Choice> choices) const;
     /// Probability with which choose() returns this light.
     float probability(const Receiver& receiver, int light) const;
 
@@ -53,6 +58,8 @@ private:
     };
 
     static Lanes importances(const Node& node, const Receiver& receiver);
+    static float sum(const Lanes& lanes);
+    static int choose_lane(const Lanes& importance, float total, float& u);
     struct Branch;
     static Branch build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end);
     void add_node(const Branch& branch, int parent, int place_in_parent);

@@ -3,6 +3,7 @@
 #include "renderer/core/sampling.h"
 #include "renderer/scene/texture.h"
 
+#include <array>
 #include <limits>
 
 namespace pluvia {
@@ -99,10 +100,11 @@ std::optional<Lights::LocalPoint> Lights::choose_local(const Receiver& receiver,
     return LocalPoint{choice->light, u, choice->probability};
 }
 
-std::optional<LightSample> Lights::sample_local(const Receiver& receiver, float u_choice, Vec2 u) const {
-    const auto point = choose_local(receiver, u_choice, u);
-    if (!point) return std::nullopt;
-    return illuminate(receiver.position, *point);
+void Lights::choose_local(const Receiver& receiver, float u_choice, std::span<LocalPoint> points) const {
+    std::array<LightTree::Choice, LightTree::max_choices> choices;
+    const size_t count = std::min(points.size(), choices.size());
+    tree_.choose(receiver, u_choice, {choices.data(), count});
+    for (size_t i = 0; i < count; ++i) points[i] = {choices[i].light, Vec2(), choices[i].probability};
 }
 
 Vec3 Lights::position(const LocalPoint& point) const {

@@ -9,6 +9,7 @@
 #include "shaders/environment.h"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace pluvia {
@@ -38,15 +39,15 @@ public:
     };
     /// u_choice picks the light for a receiver, u the point on it. Empty when none reaches it.
     std::optional<LocalPoint> choose_local(const Receiver& receiver, float u_choice, Vec2 u) const;
+    /// Several, stratified, for one receiver, with light -1 where none reaches it; their u is left to the caller.
+    void choose_local(const Receiver& receiver, float u_choice, std::span<LocalPoint> points) const;
     /// Probability with which choose_local picks this light.
     float choice_probability(const Receiver& receiver, int light) const { return tree_.probability(receiver, light); }
     Vec3 position(const LocalPoint& point) const;
     /// Light from the point to any place; black where it does not shine, and at the point itself.
     LightSample illuminate(Vec3 place, const LocalPoint& point) const;
 
-    /// One local light towards a receiver; u_choice picks the light, u the point on it. Empty when none reaches it.
-    std::optional<LightSample> sample_local(const Receiver& receiver, float u_choice, Vec2 u) const;
-    /// Pdf with respect to solid angle at which sample_local picks this point of an emissive triangle.
+    /// Pdf with respect to solid angle at which choose_local picks this point of an emissive triangle.
     float pdf_local(const Receiver& receiver, const SurfacePoint& point) const;
 
     /// One distant light; u_choice picks among environment, sun and directional lights.

@@ -2,6 +2,7 @@
 
 #include "renderer/transport/media.h"
 
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -97,11 +98,6 @@ Rgb light_of_one(const RayScene& ray_scene, const Vertex& v, const LightSample& 
     return visible_part(ray_scene, pick, v, draw, counters);
 }
 
-/// Choice i of a few, stratified.
-float stratified(float u, int i, int count) {
-    return std::min((float(i) + u) / float(count), 0x1.fffffep-1f);
-}
-
 }  // namespace
 
 Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
@@ -133,10 +129,13 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
         counters.count(Feature::local_light);
         const Receiver receiver = receiver_at(v.surface, v.bsdf);
         Pick pick(v.u.get_1d(Draw::light_pick));
-        for (int i = 0; i < local_light_samples; ++i)
-            if (const auto light = lights.sample_local(receiver, stratified(choice.x, i, local_light_samples),
-                                                       shifted(v.u.get_2d(Draw::light_point), i)))
-                pick.add(v, *light, local_light_samples);
+        std::array<Lights::LocalPoint, local_light_samples> points;
+        lights.choose_local(receiver, choice.x, points);
+        for (int i = 0; i < local_light_samples; ++i) {
+            if (points[i].light < 0) continue;
+            points[i].u = shifted(v.u.get_2d(Draw::light_point), i);
+            pick.add(v, lights.illuminate(receiver.position, points[i]), local_light_samples);
+        }
         sum += visible_part(ray_scene, pick, v, Draw::light_point, counters);
     }
     if (lights.has_sky() || lights.has_sun()) counters.count(Feature::distant_light);
