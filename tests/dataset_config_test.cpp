@@ -67,13 +67,13 @@ TEST_CASE("frames of hri.yaml are whole tiles, spread over 24 hours at equal ste
 }
 
 TEST_CASE("every configuration that comes with Pluvia is valid, and the template has every key of its own") {
-    for (const char* name : {"hri", "hri-physical", "hri-smoke", "template"}) {
+    for (const char* name : {"hri", "hri-physical", "hri-smoke", "extremerain", "extremerain-smoke", "template"}) {
         CAPTURE(name);
         CHECK_NOTHROW(read_dataset_config(root + "/scenes/" + name + ".yaml"));
     }
     const std::string text = read_file(root + "/scenes/template.yaml");
     for (const char* key : {"name", "description", "license", "scenes", "hours", "winds", "bits", "jpeg-quality", "exr",
-                            "scene", "frames", "train", "test"})
+                            "scene", "frames", "train", "test", "hour", "traffic", "rain-over-time", "wind-over-time"})
         CHECK(text.find(std::string(key) + ":") != std::string::npos);
 }
 

@@ -31,7 +31,7 @@ TEST_CASE("a plain scene calls no feature that it lacks") {
           Feature::volume,           Feature::clearcoat,    Feature::sheen,        Feature::unlit,
           Feature::local_light,      Feature::lens,         Feature::streak_test,  Feature::streak_hit,
           Feature::streak_path,      Feature::paper_streak, Feature::medium_point, Feature::medium_path,
-          Feature::medium_lamp}) {
+          Feature::medium_lamp,      Feature::label,        Feature::matte}) {
         CAPTURE(feature_names[size_t(feature)]);
         CHECK(c[feature] == 0);
     }

@@ -23,6 +23,7 @@ int run(int argc, const char* const* argv) {
     add_sky_command(app);
     add_learn_command(app);
     add_dataset_command(app);
+    add_labels_command(app);
     add_streaks_command(app);
     return parse_and_run(app, argc, argv);
 }

@@ -12,6 +12,7 @@ void add_validate_command(CLI::App& app);
 void add_sky_command(CLI::App& app);
 void add_learn_command(CLI::App& app);
 void add_dataset_command(CLI::App& app);
+void add_labels_command(CLI::App& app);
 void add_streaks_command(CLI::App& app);
 
 /// The whole program but for its process: parses, runs and reports errors on stderr. Returns the exit code.

@@ -4,6 +4,7 @@
 
 #include "renderer/image/exposure.h"
 #include "renderer/image/exr.h"
+#include "renderer/transport/frame_channels.h"
 #include "tools/render_options.h"
 
 namespace pluvia {
@@ -17,6 +18,9 @@ struct FrameHeader {
     View view;
     nlohmann::ordered_json options;  // of the command line
     std::vector<double> intensities;
+    LabelLayers labels = {};
+    std::map<std::string, std::string> label_entries = {};  // of the EXR file's header
+    std::optional<View> next = {}, previous = {};           // with flow: of the frames after and before
 };
 
 /// Header entries of frame.exr: version, scene, settings, camera matrices, units; the exposure is not known yet (NaN).
@@ -42,7 +46,8 @@ std::string json_text(const nlohmann::ordered_json& json, int indent = -1);
 /// Writes text under a temporary name and renames it. Throws Error (render_failed) when that is impossible.
 void write_text(const std::string& path, const std::string& text);
 
-/// The object of frame.json. ev100: the exposure of the pictures beside it.
-nlohmann::ordered_json frame_json(const FrameHeader& header, double ev100, const Counters& counters);
+/// The object of frame.json. ev100: the exposure of the pictures beside it. objects: of frame_objects.h, or null.
+nlohmann::ordered_json frame_json(const FrameHeader& header, double ev100, const Counters& counters,
+                                  const nlohmann::ordered_json& objects = {});
 
 }  // namespace pluvia

@@ -4,6 +4,7 @@
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/lamps.h"
 #include "shaders/streak_files.h"
+#include "tools/label_rules.h"
 #include "tools/streak_cache.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,21 @@ FrameScene load_frame_scene(const RenderOptions& options) {
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     result.hash = content_hash(result.scene);
     result.is_animated = !contents.animations.empty();
+    result.labelled_paths = std::move(contents.labelled_paths);
+    if (!result.is_animated || !label_choice(options.layers).layers.flow) return result;
+    const auto at = [&](int step) {
+        GltfSettings then{camera.mid_exposure + step / options.fps, camera.exposure_time, options.variant,
+                          options.allow_outside, false};
+        auto other = std::make_shared<Scene>(load_gltf(options.scene, then));
+        if (same_places(result.scene, *other)) {
+            other->meshes.clear(), other->instances.clear();  // only cameras move: the frame's own will do
+        } else {
+            then.pictures = true;  // masks of alpha decide over what is hidden
+            *other = load_gltf(options.scene, then);
+        }
+        return other;
+    };
+    result.next = at(1), result.previous = at(-1);
     return result;
 }
 
@@ -30,6 +46,9 @@ FrameSettings::FrameSettings(const RenderOptions& options)
     display.depth_encoding = depth_encoding_from_name(options.depth_encoding, "--depth-encoding");
     display.depth_max = float(options.depth_max);
     display.paper = render.streaks.composition == Composition::paper;
+    labels = label_choice(options.layers);
+    render.labels.layers = labels.layers;
+    if (!options.labels.empty()) label_rules = read_label_rules(options.labels);
     const DisplayView check(options.view);
     environment = make_environment(options.light, !options.rain.empty());
     if (display.paper && !options.rain.empty()) {
@@ -49,17 +68,40 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
     RenderedFrame result{{scene.name, frame.hash, scene.origin, camera.name, make_view(camera, settings.camera),
                           to_json(options), settings.render.rain.intensities_mm_per_h},
                          0,
+                         {},
                          {}};
+    RenderSettings render_settings = settings.render;
+    LabelSettings& labels = render_settings.labels;
+    labels.objects = objects_of(frame, settings.labels, settings.label_rules);
+    set_other_frames(frame, options, settings, result.header.view, labels);
+    result.header.labels = labels.layers;
+    result.header.label_entries = label_header(scene, labels, result.header.intensities);
+    if (labels.next) result.header.next = labels.next->view, result.header.previous = labels.previous->view;
+    SeenObjects seen;
     FrameWriter writer(exr, result.header);
     result.report = render(
-        scene, settings.environment, result.header.view, settings.render,
+        scene, settings.environment, result.header.view, render_settings,
         [&](const Band& band) {
             if (look) look(band);
+            if (labels.layers.instance) seen.look(band.ids.back(), band.y, band.width);
             writer.write(band);
         },
         progress);
     result.ev100 = settings.ev100 ? *settings.ev100 : writer.background_luminance().auto_ev100();
     writer.finish(result.ev100);
+    if (labels.layers.instance) {
+        const View& view = result.header.view;
+        const std::vector<ObjectExtent> extents =
+            settings.labels.boxes ? object_extents(scene, *labels.objects, view) : std::vector<ObjectExtent>();
+        std::vector<bool> moving;
+        for (const auto& other : {frame.next, frame.previous}) {
+            if (!other || other->instances.empty()) continue;
+            const std::vector<bool> found = moving_objects(*labels.objects, scene, *other);
+            moving.resize(found.size());
+            for (size_t i = 0; i < found.size(); ++i) moving[i] = moving[i] || found[i];
+        }
+        result.objects = objects_json(*labels.objects, seen, extents, moving, view, scene.origin);
+    }
     return result;
 }
 

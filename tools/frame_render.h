@@ -5,6 +5,7 @@
 #include "renderer/transport/render.h"
 #include "tools/display_files.h"
 #include "tools/frame_file.h"
+#include "tools/frame_labels.h"
 #include "tools/render_options.h"
 
 namespace pluvia {
@@ -14,6 +15,9 @@ struct FrameScene {
     Scene scene;
     uint64_t hash = 0;                     // of the content, whatever is switched off later
     bool is_animated = false;
+    std::vector<std::string> labelled_paths;      // of Scene::instances: see GltfContents
+    std::shared_ptr<const Scene> next, previous;  // a frame later and earlier; null: nothing moves or nobody asks;
+                                                  // without instances: only cameras move
 };
 
 /// Reads options.scene as it is at the frame's mid-exposure; its warnings are printed to stderr.
@@ -28,12 +32,15 @@ struct FrameSettings {
     std::optional<double> ev100;  // empty where the exposure is measured
     DisplaySettings display;      // but for the exposure and the text
     Environment environment;
+    LabelChoice labels;
+    std::vector<LabelRule> label_rules;
 };
 
 struct RenderedFrame {
     FrameHeader header;
     double ev100;  // of the pictures to be made
     RenderReport report;
+    nlohmann::ordered_json objects = {};  // of objects_json(); null without instance ids
 };
 
 /// Renders to an EXR file that appears when it is whole. look, where given, sees each band of finished rows on its way.

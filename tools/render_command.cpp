@@ -76,7 +76,7 @@ void render_command(const RenderOptions& options) {
     const std::vector<double>& intensities = frame->header.intensities;
     const DisplayReport shown = write_display_files(options.output, exr, intensities, display);
     write_text(options.output + "/frame.json",
-               json_text(frame_json(frame->header, frame->ev100, frame->report.counters), 2) + "\n");
+               json_text(frame_json(frame->header, frame->ev100, frame->report.counters, frame->objects), 2) + "\n");
     report(options, frame->report, shown, frame->ev100, intensities);
     require_valid_samples(*frame, options.output);
 }

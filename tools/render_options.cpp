@@ -58,6 +58,14 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->delimiter(',')
         ->group(rain);
     command.add_option("--wind", o.wind, "X,Y,Z in m/s")->delimiter(',')->expected(3)->group(rain);
+    command
+        .add_option("--wind-travel", o.wind_travel,
+                    "X,Y,Z: metres that the air has moved since the sequence began; default: wind times the time; for "
+                    "sequences in which the wind changes and drops go on from frame to frame")
+        ->delimiter(',')
+        ->expected(3)
+        ->group(rain);
+    command.add_option("--rain-seed", o.rain_seed, "of the drops; default: --seed")->check(seed_range)->group(rain);
     command.add_option("--composition", o.composition, "physical, or paper: the formula of 'Learning from Rendering'")
         ->capture_default_str()
         ->group(rain);
@@ -102,6 +110,17 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
 
     add_light_options(command, o.light);
 
+    const auto* labels = "Labels (of the clean scene, from the ray through each pixel's centre)";
+    command
+        .add_option("--layers", o.layers,
+                    "also write: semantic, instance, normals, albedo, position, flow, boxes, cryptomatte; or all")
+        ->delimiter(',')
+        ->group(labels);
+    command
+        .add_option("--labels", o.labels,
+                    "YAML file of rules that give classes to nodes by their names; before those of the scene's file")
+        ->group(labels);
+
     const auto* output = "Output";
     command.add_option("--exposure", o.exposure, "EV at ISO 100, or auto")->capture_default_str()->group(output);
     command.add_option("--view", o.view, "display transform of the PNGs: srgb, filmic, aces, raw")
@@ -138,6 +157,8 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["shutter"] = o.shutter;
     if (!o.camera_velocity.empty()) j["camera-velocity"] = o.camera_velocity;
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
+    if (o.rain_seed) j["rain-seed"] = *o.rain_seed;
+    if (!o.wind_travel.empty()) j["wind-travel"] = o.wind_travel;
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;
     j["streak-gain"] = o.streak_gain, j["fog-beta"] = o.fog_beta;
     if (o.composition == "paper") j["streak-distance"] = o.streak_distance, j["streak-share"] = o.streak_share;
@@ -145,6 +166,8 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["streak-width"] = streak_width(o);
     j["wetness"] = o.wetness, j["puddles"] = o.puddles, j["ripples"] = o.ripples;
     add_json(j, o.light, !o.rain.empty());
+    if (!o.layers.empty()) j["layers"] = o.layers;
+    if (!o.labels.empty()) j["labels"] = o.labels.substr(o.labels.find_last_of('/') + 1);
     j["exposure"] = o.exposure, j["view"] = o.view;
     j["depth-encoding"] = o.depth_encoding, j["depth-max"] = o.depth_max;
     return j;

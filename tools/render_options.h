@@ -26,6 +26,7 @@ struct RenderOptions {
     int bounces = -1;  // -1 = unlimited
     std::vector<double> rain;
     std::vector<double> wind = {0, 0, 0};
+    std::vector<double> wind_travel;  // empty: wind times the time
     std::string composition = "physical";
     double streak_gain = 24.5;
     double streak_distance = 0, streak_share = 1;
@@ -38,9 +39,12 @@ struct RenderOptions {
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
     double shutter = 1.0 / 60;
     std::string exposure = "auto", view = "srgb";
+    std::vector<std::string> layers;  // of labels
+    std::string labels;               // file of rules that give classes
     std::string depth_encoding = "kitti16";
     double depth_max = 100;
     uint64_t seed = 0;
+    std::optional<uint64_t> rain_seed;  // empty: seed
     int threads = 0;
     bool overwrite = false, json = false;
     std::string progress = "bar";

@@ -60,7 +60,14 @@ RenderSettings render_settings(const RenderOptions& o) {
     }
     s.rain.intensities_mm_per_h = o.rain;
     s.rain.wind = vector_from(o.wind, "wind");
-    s.rain.seed = o.seed;
+    s.rain.seed = o.rain_seed.value_or(o.seed);
+    if (!o.wind_travel.empty()) {
+        if (o.wind_travel.size() != 3)
+            fail_option("wind-travel", fmt::format("{} numbers", o.wind_travel.size()), "three, X,Y,Z");
+        const Vec3d travel(o.wind_travel[0], o.wind_travel[1], o.wind_travel[2]);
+        require_option(is_finite(travel) && length(travel) <= 1e7, "wind-travel", length(travel), "up to 10000 km");
+        s.rain.wind_travel = travel;
+    }
     if (o.composition == "paper")
         s.streaks.composition = Composition::paper;
     else if (o.composition != "physical")

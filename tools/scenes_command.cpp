@@ -1,6 +1,7 @@
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
 #include "scenes/builders.h"
+#include "scenes/traffic.h"
 #include "tools/commands.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 struct ScenesOptions {
     std::vector<std::string> names;
     std::string output = ".";
-    bool list = false;
+    bool list = false, traffic = false;
 };
 
 void scenes_command(const ScenesOptions& options) {
@@ -39,8 +40,11 @@ void scenes_command(const ScenesOptions& options) {
     if (error)
         throw Error(ExitCode::render_failed, options.output, fmt::format("cannot be made ({})", error.message()));
     for (const Builder* builder : chosen) {
-        const std::string path = fmt::format("{}/{}.glb", options.output, builder->name);
-        save_glb(builder->build(), path);
+        const std::string path =
+            fmt::format("{}/{}{}.glb", options.output, builder->name, options.traffic ? "-traffic" : "");
+        Scene scene = builder->build();
+        const std::vector<NodeMotion> motions = options.traffic ? add_traffic(scene) : std::vector<NodeMotion>();
+        save_glb(scene, path, motions);
         std::cout << path << "\n";
     }
 }
@@ -52,6 +56,9 @@ void add_scenes_command(CLI::App& app) {
     auto options = std::make_shared<ScenesOptions>();
     command->add_option("name", options->names, "scenes to write; default: all");
     command->add_option("-o,--output", options->output, "folder")->capture_default_str();
+    command->add_flag("--traffic", options->traffic,
+                      "as NAME-traffic.glb: with people who walk and, where there is a carriageway, cars and a camera "
+                      "that drive, for 12 s");
     command->add_flag("--list", options->list, "list the scenes");
     command->footer("Example:\n  pluvia scenes lane -o out");
     command->callback([options] { scenes_command(*options); });

@@ -36,6 +36,8 @@ enum class Feature {
     wet_surface,
     puddle,
     ripples,
+    label,
+    matte,
     count,
 };
 
@@ -44,7 +46,7 @@ constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
     "pane",        "frosted_pane", "glass",         "volume",       "clearcoat",   "sheen",
     "unlit",       "local_light",  "distant_light", "environment",  "lens",        "streak_test",
     "streak_hit",  "streak_path",  "paper_streak",  "medium_point", "medium_path", "medium_lamp",
-    "rain_shadow", "wet_surface",  "puddle",        "ripples"};
+    "rain_shadow", "wet_surface",  "puddle",        "ripples",      "label",       "matte"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

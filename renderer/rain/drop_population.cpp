@@ -79,7 +79,7 @@ double middle_speed(const SizeClass& size) { return (fall_speed(size.d1) + fall_
 
 Lattice lattice_at(const DropPopulation& population, int size_class, double time) {
     const SizeClass& size = size_classes[size_class];
-    const Vec3d shift = (population.wind - Vec3d(0, middle_speed(size), 0)) * time;
+    const Vec3d shift = (population.wind - Vec3d(0, middle_speed(size), 0)) * time + population.blown;
     Lattice lattice{size.cell_edge, {}, {}};
     const auto split = [&](double distance, int64_t& whole, double& remainder) {
         const double cells = std::floor(distance / size.cell_edge);

@@ -39,6 +39,7 @@ struct DropPopulation {
     uint64_t seed = 0;
     Vec3d wind;                // m/s, world
     double lowest_ground = 0;  // metres, world y: drops exist from here to rain_height above
+    Vec3d blown;               // metres that the air has moved beyond wind * time: winds before were others
 };
 
 struct Drop {
@@ -60,9 +61,9 @@ struct CellIndex {
 
 /// Where the cells of one size class are at one time.
 struct Lattice {
-    double edge;                // metres
-    CellIndex whole;            // displacement since time 0 in whole cells: kept apart, so that near the world's
-    Vec3d remainder;            // origin no digits are lost after days of sequence time; 0 <= remainder < edge
+    double edge;      // metres
+    CellIndex whole;  // displacement since time 0 in whole cells: kept apart, so that near the world's
+    Vec3d remainder;  // origin no digits are lost after days of sequence time; 0 <= remainder < edge
 
     /// Lower corner in the world.
     Vec3d corner(CellIndex cell) const {

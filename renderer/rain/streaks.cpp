@@ -22,6 +22,9 @@ void check_settings(const RainSettings& settings) {
     };
     for (double intensity : settings.intensities_mm_per_h) check_intensity(intensity);
     const double wind = length(settings.wind), width = settings.min_width_pixels, ground = settings.lowest_ground;
+    if (settings.wind_travel)
+        require(length(*settings.wind_travel) <= 1e7, "wind_travel", length(*settings.wind_travel),
+                "at most 10000 km");
     require(wind <= 100, "wind", wind, "at most 100 m/s");
     require(width > 0 && width <= 1000, "min_width_pixels", width, "above 0, at most 1000");
     require(settings.painted_distance >= 0 && settings.painted_distance <= 1000, "painted_distance",
@@ -179,7 +182,9 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
     double max_intensity = 0;
     for (double intensity : settings.intensities_mm_per_h) max_intensity = std::max(max_intensity, intensity);
 
-    const DropPopulation population{settings.seed, settings.wind, settings.lowest_ground};
+    DropPopulation population{settings.seed, settings.wind, settings.lowest_ground, {}};
+    const double middle = view.shutter_open + view.exposure_time / 2;
+    if (settings.wind_travel) population.blown = *settings.wind_travel - settings.wind * middle;
     std::array<SearchRegion, size_classes.size()> regions;
     std::vector<Cell> cells;
     for (int c = 0; c < int(size_classes.size()); ++c) {

@@ -5,6 +5,7 @@
 #include "renderer/core/view.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pluvia {
@@ -12,6 +13,9 @@ namespace pluvia {
 struct RainSettings {
     std::vector<double> intensities_mm_per_h;  // of all pictures wanted; <= 0 is no rain
     Vec3d wind;                                // m/s, world
+    /// Metres that the air has moved from the sequence's start to mid-exposure, where winds before were others; empty:
+    /// wind times that time. With it drops go on from frame to frame while the wind changes.
+    std::optional<Vec3d> wind_travel = {};
     uint64_t seed = 0;
     double min_width_pixels = 0.25;  // drops narrower than this belong to the medium; the number of streaks grows as
                                      // its inverse cube

@@ -51,6 +51,8 @@ public:
         }
     }
 
+    std::vector<std::string> labelled_paths() && { return std::move(labelled_paths_); }
+
 private:
     struct Parts {
         int first = 0, count = 0;
@@ -74,12 +76,14 @@ private:
         const Parts parts = read_once(node, std::move(deformation));
         const auto instancing = node.extensions.find("EXT_mesh_gpu_instancing");
         if (instancing == node.extensions.end()) {
-            add_instances(entry, entry.path, parts, placed);
+            add_instances(entry, entry.path, parts, placed, entry.path.substr(0, entry.labelled));
             return;
         }
         const auto copies = read_copies(instancing->second, node_where(entry.path));
-        for (size_t i = 0; i < copies.size(); ++i)
-            add_instances(entry, fmt::format("{}[{}]", entry.path, i), parts, placed * copies[i]);
+        for (size_t i = 0; i < copies.size(); ++i) {
+            const std::string path = fmt::format("{}[{}]", entry.path, i);
+            add_instances(entry, path, parts, placed * copies[i], path);
+        }
     }
 
     Vec3d skin_origin(int skin) const {
@@ -100,9 +104,11 @@ private:
     }
 
     void add_instances(const PlacedNode& entry, const std::string& path, const Parts& parts,
-                       const Transform& scene_from_object) {
+                       const Transform& scene_from_object, const std::string& labelled_path) {
         for (int part = 0; part < parts.count; ++part) {
-            budget_.spend(sizeof(Instance) + path.size() + entry.semantic.size());
+            budget_.spend(sizeof(Instance) + path.size() + entry.semantic.size() + sizeof labelled_path +
+                          labelled_path.size());
+            labelled_paths_.push_back(labelled_path);
             scene_.instances.push_back(
                 {path, instance_id(path), parts.first + part, scene_from_object, entry.is_lamp, entry.semantic});
         }
@@ -240,6 +246,7 @@ private:
     Scene& scene_;
     MemoryBudget budget_;
     std::map<std::tuple<int, int, std::vector<double>>, Parts> parts_;  // of mesh, skin and weights
+    std::vector<std::string> labelled_paths_;                           // of the scene's instances
 };
 
 /// Angular velocity of a frame that is turned from one to the other in so many seconds, by less than half a turn.
@@ -318,7 +325,7 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfConte
     tinygltf::Model model = parse_gltf(path, settings, scene.warnings);
     if (!settings.variant.empty()) choose_variant(model, settings.variant, path);
     scene.name = std::filesystem::path(path).stem().string();
-    read_materials(model, path, scene);
+    read_materials(model, path, scene, settings.pictures);
     if (model.scenes.empty()) throw input_error(path, "has no scene");
     const int chosen = model.defaultScene == -1 ? 0 : model.defaultScene;
     if (chosen < 0 || chosen >= int(model.scenes.size()))
@@ -336,7 +343,10 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfConte
     filler.add_meshes(nodes);
     filler.add_cameras(node_movements(animations, tree, model, settings));
     filler.add_lights();
-    if (contents) *contents = contents_of(model, path);
+    if (contents) {
+        *contents = contents_of(model, path);
+        contents->labelled_paths = std::move(filler).labelled_paths();
+    }
     check(scene, path);
     make_open_volumes_thin(scene);
     if (animations.empty())

@@ -153,8 +153,8 @@ private:
 
 }  // namespace
 
-void read_materials(const tinygltf::Model& model, const std::string& where, Scene& scene) {
-    read_textures(model, where, scene);
+void read_materials(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures) {
+    read_textures(model, where, scene, pictures);
     for (const tinygltf::Material& material : model.materials)
         scene.materials.push_back(MaterialReader(model, material, where, scene).read());
     tinygltf::Material standard;

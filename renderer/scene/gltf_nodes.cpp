@@ -32,9 +32,10 @@ public:
         tree_.is_placed.resize(nodes.size());
     }
 
-    /// parent_path: empty for a root. depth: number of nodes above.
+    /// parent_path: empty for a root. parent_labelled: as PlacedNode has it; of no use without a class. depth: number
+    /// of nodes above.
     void walk(int index, const Transform& scene_from_parent, const std::string& parent_path, bool parent_is_lamp,
-              const std::string& parent_semantic, int depth = 0) {
+              const std::string& parent_semantic, size_t parent_labelled, int depth = 0) {
         if (index < 0 || index >= int(nodes_.size()))
             throw input_error(where_,
                               fmt::format("node does not exist (got {}, expected below {})", index, nodes_.size()));
@@ -61,9 +62,10 @@ public:
         tree_.scene_from_node[index] = scene_from_node;
         const bool is_lamp = parent_is_lamp || is_marked_lamp(node.extras);
         const std::string own = semantic_class(node.extras), &semantic = own.empty() ? parent_semantic : own;
-        tree_.nodes.push_back({index, path, name, is_lamp, semantic});
+        const size_t labelled = own.empty() && !semantic.empty() ? parent_labelled : path.size();
+        tree_.nodes.push_back({index, path, name, is_lamp, semantic, labelled});
         for (const int child : node.children) {
-            walk(child, scene_from_node, path, is_lamp, semantic, depth + 1);
+            walk(child, scene_from_node, path, is_lamp, semantic, labelled, depth + 1);
         }
     }
     NodeTree tree() && { return std::move(tree_); }
@@ -80,7 +82,7 @@ private:
 NodeTree place_nodes(const std::vector<tinygltf::Node>& nodes, const std::vector<int>& roots,
                      const std::string& where) {
     Walk walk(nodes, where);
-    for (const int root : roots) walk.walk(root, Transform(), "", false, "");
+    for (const int root : roots) walk.walk(root, Transform(), "", false, "", 0);
     return std::move(walk).tree();
 }
 

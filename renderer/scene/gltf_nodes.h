@@ -16,6 +16,7 @@ struct PlacedNode {
     std::string name;      // the last of them
     bool is_lamp;          // marked as a lamp, or below a node that is
     std::string semantic;  // its class, or that of the nearest node above that has one
+    size_t labelled;       // length of that node's path; of the whole path where no node has a class
 };
 
 struct NodeTree {

@@ -19,6 +19,7 @@
 #include <fstream>
 #include <map>
 #include <span>
+#include <tuple>
 
 namespace pluvia {
 namespace {
@@ -66,7 +67,8 @@ std::vector<Rgba8> as_bytes(const Mesh& mesh) {
 /// Gathers the file's parts; everything binary goes into its one buffer.
 class GlbWriter {
 public:
-    explicit GlbWriter(const Scene& scene) : scene_(scene) {
+    GlbWriter(const Scene& scene, const std::vector<NodeMotion>& motions) : scene_(scene) {
+        for (const NodeMotion& motion : motions) motions_[motion.path] = &motion;
         model_.asset.version = "2.0";
         model_.asset.generator = "Pluvia";
         model_.buffers.resize(1);
@@ -238,16 +240,74 @@ private:
         tinygltf::Node node;
         node.name = instance.name.substr(slash + 1);
         node.mesh = instance.mesh;
-        node.matrix = matrix_of(in_file(instance.scene_from_object));
+        const int parent = group(slash == std::string::npos ? "" : instance.name.substr(0, slash));
         node.extras = marks(instance.lamp);
-        if (!instance.semantic.empty()) mark_semantic(node.extras, instance.semantic, number_in_class(instance));
-        add_node(node, group(slash == std::string::npos ? "" : instance.name.substr(0, slash)));
+        const auto found = motions_.find(instance.name);
+        const NodeMotion* motion = found == motions_.end() ? nullptr : found->second;
+        const std::string& object = motion && !motion->object.empty() ? motion->object : instance.name;
+        if (!instance.semantic.empty()) {
+            tinygltf::Value& extras = &object == &instance.name ? node.extras : model_.nodes[group(object)].extras;
+            mark_semantic(extras, instance.semantic, number_in_class(instance.semantic, object));
+        }
+        if (motion) {
+            place_rigidly(node, motion->scene_from_object[0]);
+            add_motion(*motion, add_node(node, parent));
+        } else {
+            node.matrix = matrix_of(in_file(instance.scene_from_object));
+            add_node(node, parent);
+        }
+    }
+
+    /// As nodes that move must be, which may not have a matrix.
+    void place_rigidly(tinygltf::Node& node, const Transform& scene_from_object) const {
+        const Transform placed = in_file(scene_from_object);
+        node.translation = {placed.translation.x, placed.translation.y, placed.translation.z};
+        node.rotation = quaternion(placed);
+    }
+
+    void add_motion(const NodeMotion& motion, int node) {
+        std::vector<float> positions, rotations;
+        std::vector<double> before;
+        for (const Transform& key : motion.scene_from_object) {
+            const Vec3d p = key.translation + scene_.origin;
+            positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
+            std::vector<double> q = quaternion(key);
+            // A rotation has two quaternions; that next to the one before is the shorter way.
+            if (!before.empty() && q[0] * before[0] + q[1] * before[1] + q[2] * before[2] + q[3] * before[3] < 0)
+                for (double& v : q) v = -v;
+            rotations.insert(rotations.end(), q.begin(), q.end());
+            before = q;
+        }
+        tinygltf::Animation entry;
+        entry.name = motion.path;
+        const int input = add_times(motion.times);
+        for (const auto& [values, components, path] :
+             {std::tuple{&positions, 3, "translation"}, {&rotations, 4, "rotation"}}) {
+            tinygltf::AnimationSampler sampler;
+            sampler.input = input;
+            sampler.output = add_floats(*values, components, 0);
+            sampler.interpolation = "LINEAR";
+            tinygltf::AnimationChannel channel;
+            channel.sampler = int(entry.samplers.size());
+            channel.target_node = node;
+            channel.target_path = path;
+            entry.samplers.push_back(sampler);
+            entry.channels.push_back(channel);
+        }
+        model_.animations.push_back(entry);
+    }
+
+    int add_times(const std::vector<float>& times) {
+        const int accessor = add_floats(times, 1, 0);
+        model_.accessors[accessor].minValues = {*std::min_element(times.begin(), times.end())};
+        model_.accessors[accessor].maxValues = {*std::max_element(times.begin(), times.end())};
+        return accessor;
     }
 
     /// Objects of a class are counted from 0 in the order in which they first appear; the parts of one share a number.
-    int number_in_class(const Instance& instance) {
-        auto& numbers = numbers_in_class_[instance.semantic];
-        return numbers.try_emplace(instance.name, int(numbers.size())).first->second;
+    int number_in_class(const std::string& semantic, const std::string& object) {
+        auto& numbers = numbers_in_class_[semantic];
+        return numbers.try_emplace(object, int(numbers.size())).first->second;
     }
 
     void add_light(const PunctualLight& light) {
@@ -293,10 +353,7 @@ private:
             add_node(node, -1);
             return;
         }
-        // Nodes that move may not have a matrix.
-        const Transform placed = in_file(camera.scene_from_camera);
-        node.translation = {placed.translation.x, placed.translation.y, placed.translation.z};
-        node.rotation = quaternion(placed);
+        place_rigidly(node, camera.scene_from_camera);
         add_path(camera, add_node(node, -1));
     }
 
@@ -308,11 +365,9 @@ private:
             positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
         }
         tinygltf::AnimationSampler sampler;
-        sampler.input = add_floats(times, 1, 0);
+        sampler.input = add_times(times);
         sampler.output = add_floats(positions, 3, 0);
         sampler.interpolation = "LINEAR";
-        model_.accessors[sampler.input].minValues = {*std::min_element(times.begin(), times.end())};
-        model_.accessors[sampler.input].maxValues = {*std::max_element(times.begin(), times.end())};
         tinygltf::AnimationChannel channel;
         channel.sampler = 0;
         channel.target_node = node;
@@ -331,19 +386,20 @@ private:
 
     const Scene& scene_;
     tinygltf::Model model_;
+    std::map<std::string, const NodeMotion*> motions_;  // by path
     std::map<std::string, int> groups_;
     std::map<std::string, std::map<std::string, int>> numbers_in_class_;  // by class, then by path
 };
 
 }  // namespace
 
-void save_glb(const Scene& scene, const std::string& path) {
+void save_glb(const Scene& scene, const std::string& path, const std::vector<NodeMotion>& motions) {
     check(scene, path);
     for (const Mesh& mesh : scene.meshes)
         if (mesh.triangles.empty())
             throw input_error(
                 path, fmt::format("mesh \"{}\" cannot be written (got 0 triangles, expected at least 1)", mesh.name));
-    const GlbWriter writer(scene);
+    const GlbWriter writer(scene, motions);
     PendingFile file(path);
     tinygltf::TinyGLTF().WriteGltfSceneToStream(&writer.model(), file.stream(), false, true);
     file.commit();

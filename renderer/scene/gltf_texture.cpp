@@ -55,7 +55,7 @@ Texture read_texture(const tinygltf::Model& model, const tinygltf::Texture& sour
 
 }  // namespace
 
-void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene) {
+void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures) {
     for (size_t i = 0; i < model.textures.size(); ++i)
         scene.textures.push_back(read_texture(model, model.textures[i], int(i), where, scene.warnings));
 
@@ -68,7 +68,7 @@ void read_textures(const tinygltf::Model& model, const std::string& where, Scene
     scene.images.resize(model.images.size());
     parallel_for(int(model.images.size()), [&](int i) {
         const tinygltf::Image& image = model.images[i];
-        const bool needed = chosen[i] || !replaced[i];
+        const bool needed = pictures && (chosen[i] || !replaced[i]);
         scene.images[i] = needed ? read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name))
                                  : Image<Rgba8>(1, 1);
     });

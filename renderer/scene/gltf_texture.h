@@ -11,7 +11,7 @@ namespace pluvia {
 /// Fills Scene::images and textures in the file's order. Of a texture that comes in several formats the one that
 /// EXT_texture_webp or MSFT_texture_dds names is taken; pictures that only serve as the fallback of such textures are
 /// not decoded and stay black texels. where: the file, for messages.
-void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene);
+void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures);
 
 /// Reads the slots of one material. Uv sets beyond the second are named in a warning and the first is taken.
 struct SlotReader {

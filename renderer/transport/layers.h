@@ -7,6 +7,7 @@
 #include "renderer/core/rgb.h"
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -45,9 +46,14 @@ void develop(const PixelSums& sums, const CentreDepth& depth, int samples, float
 struct Band {
     int y = 0, rows = 0, width = 0;
     std::vector<std::vector<float>> planes;  // rows * width each
+    std::vector<std::vector<uint32_t>> ids;  // the same, for label layers that hold ids
 
-    Band(int y_, int rows_, int width_, size_t channels)
-        : y(y_), rows(rows_), width(width_), planes(channels, std::vector<float>(size_t(rows_) * width_)) {}
+    Band(int y_, int rows_, int width_, size_t channels, size_t id_channels = 0)
+        : y(y_),
+          rows(rows_),
+          width(width_),
+          planes(channels, std::vector<float>(size_t(rows_) * width_)),
+          ids(id_channels, std::vector<uint32_t>(size_t(rows_) * width_)) {}
 };
 
 }  // namespace pluvia

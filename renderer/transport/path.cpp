@@ -27,7 +27,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
             result.radiance += throughput * distant_light(*lights_, origin, ray.direction);
             return result;
         }
-        if (bounce == first_bounce) result.distance = hit.distance;
+        if (bounce == first_bounce) result.distance = hit.distance, result.first = hit.point;
         const VertexNumbers u = sampler.vertex(bounce);
         const Vec2 lobe = u.get_2d(Draw::lobe);
         Surface surface = evaluate_surface(*scene_, hit.point, ray.direction, lobe.y, counters);

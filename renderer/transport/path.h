@@ -16,6 +16,7 @@ struct PathSettings {
 struct PathResult {
     Rgb radiance;
     float distance = std::numeric_limits<float>::infinity();  // to the first surface that does not let the ray pass
+    SurfacePoint first = {};                                  // on it; instance -1 where there is none
 };
 
 class PathTracer {

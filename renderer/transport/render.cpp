@@ -3,7 +3,9 @@
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
 #include "renderer/core/sampling.h"
+#include "renderer/transport/cryptomatte.h"
 #include "renderer/transport/dry_parts.h"
+#include "renderer/transport/frame_channels.h"
 #include "renderer/transport/shelter.h"
 
 #include <atomic>
@@ -21,6 +23,19 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Ids of mattes by index of object and material.
+struct Mattes {
+    const Scene& scene;
+    const SceneObjects& objects;
+    std::vector<float> object_ids, material_ids;
+    float rain_id = cryptomatte_id("rain");
+
+    Mattes(const Scene& scene_, const SceneObjects& objects_) : scene(scene_), objects(objects_) {
+        for (const LabelObject& object : objects.objects) object_ids.push_back(cryptomatte_id(object.name));
+        for (const Material& material : scene.materials) material_ids.push_back(cryptomatte_id(material.name));
+    }
+};
+
 /// All that the tiles of a frame share.
 struct Frame {
     const View& view;
@@ -29,6 +44,10 @@ struct Frame {
     const StreakBins* bins = nullptr;  // null where there is no rain
     std::optional<RainStage> rain;
     const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
+    const LabelTracer* labels = nullptr;
+    const Mattes* mattes = nullptr;
+
+    size_t first_label = 0, first_matte = 0;  // places among a pixel's values
 
     size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
 };
@@ -61,6 +80,8 @@ struct Scratch {
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<float> values;
+    std::vector<uint32_t> ids;
+    MatteCounts objects, materials;
 };
 
 void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, Counters& counters) {
@@ -75,6 +96,12 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     if (!is_finite(path.radiance)) {
         ++counters.invalid_samples;
         return;
+    }
+    if (frame.mattes && path.first.instance >= 0) {
+        const Instance& instance = frame.mattes->scene.instances[path.first.instance];
+        counters.count(Feature::matte);
+        scratch.objects.add(frame.mattes->objects.object_of_instance[path.first.instance]);
+        scratch.materials.add(frame.mattes->scene.meshes[instance.mesh].material);
     }
     PixelSums& sums = scratch.sums;
     add(sums.background, path.radiance);
@@ -102,13 +129,17 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     }
 }
 
-void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
+/// Depth, and the labels that the same ray finds, the latter into the values behind the layers of light.
+void find_centre(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
     const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
     Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
     RayHit hit;
     CentreDepth& depth = scratch.depth;
-    const bool found =
-        frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
+    const Ray ray = scene_ray(frame.view, seen);
+    const bool found = frame.tracer.ray_scene().closest_hit(ray, {.at_half = true}, hit, counters);
+    if (frame.labels)
+        frame.labels->write(ray.direction, found ? &hit : nullptr, scratch.values.data() + frame.first_label,
+                            scratch.ids.data(), counters);
     depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
     depth.z = depth.distance * seen.direction.z;
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
@@ -122,6 +153,18 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
         for (size_t i = 0; i < depth.rainy_z.size(); ++i)
             if (streak.threshold_mm_per_h <= frame.settings.rain.intensities_mm_per_h[i])
                 depth.rainy_z[i] = std::min(depth.rainy_z[i], z);
+    }
+}
+
+void write_mattes(const Frame& frame, Scratch& scratch) {
+    const int samples = frame.settings.samples;
+    float* values = scratch.values.data() + frame.first_matte;
+    scratch.objects.write(frame.mattes->object_ids, samples, values);
+    scratch.materials.write(frame.mattes->material_ids, samples, values += cryptomatte_channels);
+    values += cryptomatte_channels;
+    for (const RainSums& rain : scratch.sums.rain) {
+        const auto coverage = float(rain.coverage / samples);
+        for (const float value : {coverage > 0 ? frame.mattes->rain_id : 0.0f, coverage, 0.0f, 0.0f}) *values++ = value;
     }
 }
 
@@ -149,16 +192,20 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
     Scratch scratch;
     scratch.rain.resize(frame.intensity_count());
     scratch.values.resize(band.planes.size());
+    scratch.ids.resize(band.ids.size());
     for (int y = band.y; y < band.y + band.rows; ++y)
         for (int x = x_begin; x < x_end; ++x) {
             scratch.sums.background = {};
             scratch.sums.rain.assign(frame.intensity_count(), {});
+            scratch.objects.clear(), scratch.materials.clear();
             if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
             for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
-            find_depth(frame, x, y, scratch, counters);
+            find_centre(frame, x, y, scratch, counters);
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
+            if (frame.mattes) write_mattes(frame, scratch);
             for (size_t c = 0; c < band.planes.size(); ++c) band.planes[c][pixel] = scratch.values[c];
+            for (size_t c = 0; c < band.ids.size(); ++c) band.ids[c][pixel] = scratch.ids[c];
             progress.add_pixel();
         }
 }
@@ -167,7 +214,7 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
 /// the lock, while the others go on rendering; they wait before they get too far ahead of it.
 class BandQueue {
 public:
-    BandQueue(const View& view, int tile_size, size_t channels, const BandSink& sink)
+    BandQueue(const View& view, int tile_size, const FrameChannels& channels, const BandSink& sink)
         : view_(view),
           tile_size_(tile_size),
           columns_((view.width + tile_size - 1) / tile_size),
@@ -184,7 +231,8 @@ public:
         auto& entry = bands_[row];
         if (!entry.band) {
             const int y = row * tile_size_;
-            entry.band = std::make_unique<Band>(y, std::min(tile_size_, view_.height - y), view_.width, channels_);
+            entry.band = std::make_unique<Band>(y, std::min(tile_size_, view_.height - y), view_.width,
+                                                channels_.values.size(), channels_.ids.size());
         }
         return *entry.band;
     }
@@ -221,7 +269,7 @@ private:
     };
     const View& view_;
     int tile_size_, columns_;
-    size_t channels_;
+    FrameChannels channels_;
     const BandSink& sink_;
     std::mutex mutex_;
     std::condition_variable written_;
@@ -249,7 +297,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
-    Frame frame{view, settings, tracer, nullptr, std::nullopt};
+    Frame frame{view, settings, tracer, nullptr, std::nullopt, nullptr, nullptr, nullptr};
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
         const Bounds box = bounds(scene);
@@ -266,9 +314,17 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         if (fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
+    const LabelLayers& layers = settings.labels.layers;
+    std::optional<LabelTracer> labels;
+    std::optional<Mattes> mattes;
+    if (layers.any_of_ray()) frame.labels = &labels.emplace(scene, ray_scene, view, settings.labels);
+    if (layers.cryptomatte) frame.mattes = &mattes.emplace(scene, *settings.labels.objects);
+    frame.first_label = layer_channels(settings.rain.intensities_mm_per_h).size();
+    frame.first_matte = frame.first_label + label_channels(layers).size();
     report.build_seconds = seconds_since(start);
 
-    BandQueue queue(view, settings.tile_size, layer_channels(settings.rain.intensities_mm_per_h).size(), sink);
+    const FrameChannels channels = frame_channels(settings.rain.intensities_mm_per_h, layers);
+    BandQueue queue(view, settings.tile_size, channels, sink);
     const int rows = (view.height + settings.tile_size - 1) / settings.tile_size;
     const int tiles = rows * queue.columns();
     PixelProgress pixel_progress(view, progress);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/scene/camera.h"
+#include "renderer/transport/label_layers.h"
 #include "renderer/transport/layers.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/rain_stage.h"
@@ -17,6 +18,7 @@ struct RenderSettings {
     RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
     StreakSettings streaks = {};
     WetSettings wet = {};
+    LabelSettings labels = {};
     int tile_size = 32;  // pixels; changes no byte of the picture
 };
 
@@ -32,7 +34,7 @@ using BandSink = std::function<void(const Band&)>;
 /// Told after most pixels how much is done, 0 to 1, by one thread at a time; false asks to stop.
 using ProgressCallback = std::function<bool(double)>;
 
-/// Renders all layers of layer_channels(settings.rain.intensities_mm_per_h). The bands are the same for any number of
+/// Renders all layers of frame_channels(). The bands are the same for any number of
 /// threads and any tile size. Throws Error (stopped_early) when progress returns false.
 RenderReport render(const Scene& scene, const Environment& environment, const View& view,
                     const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress);

@@ -4,6 +4,7 @@
 #include "scenes/builders.h"
 #include "tools/dataset/config_tree.h"
 #include "tools/dataset/suggestion.h"
+#include "tools/frame_labels.h"
 #include "tools/option_check.h"
 
 #include <fmt/format.h>
@@ -29,9 +30,10 @@ const std::pair<const char*, const char*> set_elsewhere[] = {
     {"json", "--json on the command line"},
     {"depth-encoding", "nothing: the layout has its own"},
 };
-const std::vector<std::string> own_keys = {"name",  "description", "license",      "scenes", "hours",
-                                           "winds", "bits",        "jpeg-quality", "exr"};
-const std::vector<std::string> scene_keys = {"scene", "name", "frames", "train", "test"};
+const std::vector<std::string> own_keys = {"name",  "description",    "license",       "scenes",
+                                           "hours", "winds",          "bits",          "jpeg-quality",
+                                           "exr",   "rain-over-time", "wind-over-time"};
+const std::vector<std::string> scene_keys = {"scene", "name", "traffic", "frames", "hour", "train", "test"};
 
 class Reader {
 public:
@@ -65,6 +67,12 @@ public:
         if (!scenes) fail(root.line, "has no key \"scenes\"", "a list of scenes");
         require(scenes->value.kind == Kind::list && !scenes->value.items.empty(), scenes->line, "scenes is no list",
                 "one entry per scene");
+        if (config.is_sequence()) {
+            require(common.rain.empty(), scenes->line, "both rain and rain-over-time are given", "one of them");
+            common.rain = {config.rain_over_time[0].value.x};  // every frame has its own
+        }
+        require(config.is_sequence() || config.wind_over_time.empty(), scenes->line,
+                "wind-over-time is given without rain-over-time", "both, or winds");
         for (const ConfigNode& node : scenes->value.items) config.scenes.push_back(read_scene(node, common));
         check_whole(config, scenes->line);
         return config;
@@ -133,6 +141,23 @@ private:
                 "letters, digits, '_', '-' and '.'");
     }
 
+    /// [[frame, VALUE], ...] with 1 or 3 numbers for a value, in rising order of frames.
+    std::vector<FrameKey> keys(const ConfigEntry& entry, size_t numbers) const {
+        std::vector<FrameKey> result;
+        for (const ConfigNode& node : list(entry)) {
+            require(node.kind == Kind::list && node.items.size() == numbers + 1, node.line,
+                    fmt::format("an entry of {} has not {} numbers", entry.key, numbers + 1),
+                    numbers == 1 ? "[frame, mm/h]" : "[frame, X, Y, Z] in m/s");
+            FrameKey key;
+            key.frame = number(node.items[0], entry.key);
+            for (size_t k = 0; k < numbers; ++k) key.value[int(k)] = number(node.items[k + 1], entry.key);
+            require(key.frame >= 0 && (result.empty() || key.frame > result.back().frame), node.line,
+                    "frames are not in order", "rising ones from 0 on");
+            result.push_back(key);
+        }
+        return result;
+    }
+
     void read_own(DatasetConfig& config, const ConfigEntry& entry) const {
         if (entry.key == "name") {
             config.name = scalar(entry);
@@ -149,6 +174,16 @@ private:
             config.pictures.jpeg_quality = integer(entry, 1, 100);
         } else if (entry.key == "exr") {
             config.pictures.exr = truth(entry);
+        } else if (entry.key == "rain-over-time") {
+            config.rain_over_time = keys(entry, 1);
+            for (const FrameKey& key : config.rain_over_time)
+                require(key.value.x >= 0 && key.value.x <= 1000, entry.line, "rain-over-time is out of range",
+                        "0 to 1000 mm/h");
+        } else if (entry.key == "wind-over-time") {
+            config.wind_over_time = keys(entry, 3);
+            for (const FrameKey& key : config.wind_over_time)
+                require(is_finite(key.value) && length(key.value) < 100, entry.line, "a wind is too strong",
+                        "below 100 m/s");
         } else if (entry.key == "hours") {
             for (const ConfigNode& node : list(entry)) {
                 const double hour = number(node, "hours");
@@ -189,7 +224,7 @@ private:
         for (CLI::Option* option : app.get_options()) option->required(false);
         try {
             app.parse(std::vector<std::string>{"--" + entry.key + "=" + value});
-            camera_settings(options), render_settings(options), exposure_ev100(options);
+            camera_settings(options), render_settings(options), exposure_ev100(options), label_choice(options.layers);
             const DisplayView view(options.view);
             if (options.light.environment.empty()) {
                 sky_settings(options.light, !options.rain.empty());
@@ -215,6 +250,11 @@ private:
                 scene.name = scalar(entry);
             } else if (entry.key == "frames") {
                 scene.frames = integer(entry, 1, 100000);
+            } else if (entry.key == "traffic") {
+                scene.traffic = truth(entry);
+            } else if (entry.key == "hour") {
+                scene.hour = number(entry.value, "hour");
+                require(*scene.hour >= 0 && *scene.hour <= 24, entry.line, "hour is out of range", "0 to 24");
             } else if (entry.key == "train" || entry.key == "test") {
                 auto& cameras = entry.key == "train" ? scene.train : scene.test;
                 for (const ConfigNode& item : list(entry)) {
@@ -236,12 +276,17 @@ private:
                 "train, test or both");
         const std::filesystem::path source(scene.source);
         scene.is_built = !source.has_extension();
+        require(scene.is_built || !scene.traffic, node.line, "traffic is asked for in a scene from a file",
+                "a name of pluvia scenes --list");
         if (scene.name.empty()) scene.name = source.stem();
         check_name(scene.name, node.line);
         // A file is looked for where the configuration is.
         if (!scene.is_built && source.is_relative())
             scene.source = (std::filesystem::path(path_).parent_path() / source).string();
         scene.options.scene = scene.source;
+        std::string& rules = scene.options.labels;
+        if (!rules.empty() && std::filesystem::path(rules).is_relative())
+            rules = (std::filesystem::path(path_).parent_path() / rules).string();
         // The picture of a rainy day without a word about the weather has the sky of rain; that is said here once.
         if (scene.options.light.weather.empty()) scene.options.light.weather = "rain";
         return scene;
@@ -253,6 +298,8 @@ private:
             require(!scene.options.rain.empty(), line, "no intensities are given", "rain: [10, 25, ...] in mm/h");
             require(scene.options.rain == config.scenes[0].options.rain, line, "scenes differ in rain",
                     "the same intensities");
+            require(scene.options.layers.empty() || config.pictures.exr, line, "labels are asked for without EXR files",
+                    "exr: true, since labels are layers of these");
             require(std::is_sorted(scene.options.rain.begin(), scene.options.rain.end()), line,
                     "intensities are not in order", "rising ones");
             for (const DatasetScene& other : config.scenes)

@@ -2,6 +2,7 @@
 // what they mean there. Its frames, one by one, are in item.h.
 #pragma once
 
+#include "tools/dataset/frame_keys.h"
 #include "tools/render_options.h"
 
 #include <string>
@@ -13,7 +14,9 @@ struct DatasetScene {
     std::string name;    // folder of its pictures
     std::string source;  // a builder's name, or the path of a glTF file
     bool is_built = false;
+    bool traffic = false;                  // of a built scene: what moves in it
     int frames = 0;                        // of every camera
+    std::optional<double> hour;            // of all frames; empty: as the dataset's hours have it
     std::vector<std::string> train, test;  // cameras
     RenderOptions options;                 // the same for all its frames
 };
@@ -29,9 +32,13 @@ struct DatasetConfig {
     std::string path;  // of the file
     std::string name, description, license = "other";
     std::vector<DatasetScene> scenes;
-    std::vector<double> hours;             // frame i has hours[i % size]; empty: 24 i / frames
-    std::vector<Vec3d> winds = {Vec3d()};  // m/s; frame i has winds[i % size]
+    std::vector<double> hours;                             // frame i has hours[i % size]; empty: 24 i / frames
+    std::vector<Vec3d> winds = {Vec3d()};                  // m/s; frame i has winds[i % size]
+    std::vector<FrameKey> rain_over_time, wind_over_time;  // mm/h, in x, and m/s along frames; rain empty: no sequences
     PictureFormat pictures;
+
+    /// Whether rain falls on from frame to frame, one intensity each.
+    bool is_sequence() const { return !rain_over_time.empty(); }
 
     size_t intensity_count() const { return scenes.front().options.rain.size(); }
 };

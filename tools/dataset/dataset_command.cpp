@@ -9,9 +9,11 @@
 #include "tools/dataset/plan.h"
 #include "tools/dataset/report.h"
 #include "tools/dataset/run.h"
+#include "tools/dataset/video.h"
 #include "tools/frame_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iostream>
 
@@ -25,7 +27,7 @@ struct DatasetOptions {
     std::string shard = "1/1", only, progress = "bar";
     bool no_sample = false;
     std::vector<std::string> from;
-    std::string format = "hri", to;
+    std::string format = "hri", to, picture = "rainy_image";
     ReportSettings report;
     FigureSettings figure;
 };
@@ -93,7 +95,7 @@ void check(const DatasetOptions& o, const DatasetConfig& config) {
 void export_command(const DatasetOptions& o, const DatasetConfig& config) {
     const std::string to = o.to.empty() ? o.output + "-" + o.format : o.to;
     const size_t pairs = export_dataset(config, o.output, o.format, to);
-    std::cout << fmt::format("{}: {} in the layout {}\n", to, plural(pairs, "pair"), o.format);
+    std::cout << fmt::format("{}: {} exported in the layout {}\n", to, pairs, o.format);
 }
 
 void report(const DatasetOptions& o, const DatasetConfig& config) {
@@ -105,6 +107,10 @@ void figure(const DatasetOptions& o, const DatasetConfig& config) {
     std::cout << write_figure(config, o.output, o.figure, Progress::style_from_name(o.progress)) << "\n";
 }
 
+void video(const DatasetOptions& o, const DatasetConfig& config) {
+    for (const std::string& file : write_videos(config, o.output, o.picture)) std::cout << file << "\n";
+}
+
 using Action = void (*)(const DatasetOptions&, const DatasetConfig&);
 
 }  // namespace
@@ -114,8 +120,8 @@ void add_dataset_command(CLI::App& app) {
         "dataset", "many frames from a configuration file: planned, rendered, resumed, split over machines and proven");
     command->require_subcommand(1);
     command->footer(
-        "Configurations that come with Pluvia: scenes/hri.yaml, hri-physical.yaml, hri-smoke.yaml; template.yaml\n"
-        "explains every key.\n"
+        "Configurations that come with Pluvia: scenes/hri.yaml, hri-physical.yaml, hri-smoke.yaml,\n"
+        "extremerain.yaml, extremerain-smoke.yaml; template.yaml explains every key.\n"
         "Example:\n  pluvia dataset plan scenes/hri.yaml -o out/hri --no-sample");
     auto o = std::make_shared<DatasetOptions>();
     const auto add = [&](const char* name, const char* text, const char* example, Action action) {
@@ -154,10 +160,13 @@ void add_dataset_command(CLI::App& app) {
                  "check scenes/hri-smoke.yaml -o out/smoke", check));
     sub = add("export", "the dataset in another layout", "export scenes/hri-smoke.yaml -o out/smoke --format hf",
               export_command);
-    sub->add_option("--format", o->format, "hri, hf or webdataset")->capture_default_str();
+    sub->add_option("--format", o->format, fmt::format("{}", fmt::join(export_formats(), ", ")))->capture_default_str();
     sub->add_option("--to", o->to, "new folder; default: that of the dataset and the format's name");
     sub = add("report", "one HTML page to look at the dataset", "report scenes/hri-smoke.yaml -o out/smoke", report);
     sub->add_option("--frames", o->report.frames, "frames shown, spread over the dataset")->capture_default_str();
+    sub = add("video", "a clip of every sequence, by ffmpeg where it is installed",
+              "video scenes/extremerain-smoke.yaml -o out/extremerain", video);
+    sub->add_option("--picture", o->picture, "rainy_image or background")->capture_default_str();
     sub = add("figure", "a scene at several hours, intensities and winds, as one picture and a page",
               "figure scenes/hri-smoke.yaml -o out/figure --hours 8,20 --winds=-4,4", figure);
     sub->add_option("--scene", o->figure.scene, "default: the first of the configuration");

@@ -7,6 +7,7 @@
 #include "tools/dataset/tar_file.h"
 #include "tools/dataset/work_folder.h"
 #include "tools/frame_file.h"
+#include "tools/labels/label_export.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -143,7 +144,11 @@ void export_webdataset(const DatasetState& state, const std::string& dataset, co
 }  // namespace
 
 const std::vector<std::string>& export_formats() {
-    static const std::vector<std::string> names = {"hri", "hf", "webdataset"};
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> all = {"hri", "hf", "webdataset"};
+        all.insert(all.end(), label_formats().begin(), label_formats().end());
+        return all;
+    }();
     return names;
 }
 
@@ -161,6 +166,12 @@ size_t export_dataset(const DatasetConfig& config, const std::string& dataset, c
         throw Error(
             ExitCode::check_failed, dataset,
             fmt::format("{} of {} frames are missing; pluvia dataset run makes them", missing, state.items.size()));
+    if (format != "hri" && format != "hf" && format != "webdataset") {
+        std::vector<LabelSource> frames;
+        for (const DatasetItem& item : state.items) frames.push_back(item.labels(dataset));
+        export_labels(frames, format, to);
+        return frames.size();
+    }
     make_folder_of(to + "/README.md");
     if (format == "hri") export_hri(state, dataset, to);
     if (format == "hf") export_hf(config, state, dataset, to);

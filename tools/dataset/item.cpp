@@ -6,6 +6,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pluvia {
 
 std::string DatasetItem::id() const {
@@ -17,8 +20,36 @@ std::string DatasetItem::clean_path(const std::string& kind, const std::string& 
 }
 
 std::string DatasetItem::rainy_path(double intensity, const std::string& kind, const std::string& extension) const {
+    if (is_sequence)
+        return fmt::format("rainy/{}/{}/over_time/{}/frame_{:04}.{}", scene_name, camera, kind, frame, extension);
     return fmt::format("rainy/{}/{}/{}/{}/{}/frame_{:04}.{}", scene_name, camera, intensity_folder(intensity),
                        wind_name(options.wind), kind, frame, extension);
+}
+
+namespace {
+
+std::vector<double> numbers(Vec3d v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The rain of one sequence is the same rain in all its frames.
+void set_rain_over_time(const DatasetConfig& config, DatasetItem& item) {
+    item.is_sequence = true;
+    // In steps of 0.01 mm/h, so that names of channels are short.
+    item.options.rain = {std::round(100 * value_at(config.rain_over_time, item.frame).x) / 100};
+    const uint64_t seed = config.scenes[item.scene].options.seed;
+    item.options.rain_seed = hash_text(fmt::format("{}/{}/{}", seed, item.scene_name, item.camera)) >> 32;
+    if (config.wind_over_time.empty()) return;
+    item.options.wind = numbers(value_at(config.wind_over_time, item.frame));
+    item.options.wind_travel = numbers(integral_to(config.wind_over_time, item.frame) * (1 / item.options.fps));
+}
+
+}  // namespace
+
+LabelSource DatasetItem::labels(const std::string& dataset) const {
+    std::string name = id();
+    std::replace(name.begin(), name.end(), '/', '_');
+    return {dataset + "/" + exr_path(), dataset + "/" + record_path(), name};
 }
 
 std::string wind_name(const std::vector<double>& wind) {
@@ -45,11 +76,13 @@ std::vector<DatasetItem> dataset_items(const DatasetConfig& config) {
                     item.options.frame = frame;
                     item.options.light.hour = config.hours.empty() ? 24.0 * frame / scene.frames
                                                                    : config.hours[size_t(frame) % config.hours.size()];
+                    if (scene.hour) item.options.light.hour = *scene.hour;
                     const Vec3d wind = config.winds[size_t(frame) % config.winds.size()];
                     item.options.wind = {wind.x, wind.y, wind.z};
                     // Noise of its own: the same in every frame would be learnt as a part of pictures.
                     item.options.seed = hash_text(fmt::format("{}/{}", scene.options.seed, item.id())) >> 32;
                     item.options.depth_encoding = "hri";
+                    if (config.is_sequence()) set_rain_over_time(config, item);
                     items.push_back(std::move(item));
                 }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tools/dataset/config.h"
+#include "tools/labels/label_frame.h"
 
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ struct DatasetItem {
     std::string camera;  // HRI's "sequence"
     bool is_test = false;
     int frame = 0;
-    RenderOptions options;  // all of the frame
+    RenderOptions options;     // all of the frame
+    bool is_sequence = false;  // its rain goes on from frame to frame
 
     /// "lane/front/frame_0003".
     std::string id() const;
@@ -24,6 +26,8 @@ struct DatasetItem {
     // Paths from the dataset's folder.
     std::string record_path() const { return "records/" + id() + ".json"; }
     std::string exr_path() const { return "exr/" + id() + ".exr"; }
+    /// With label layers, which frames have in their EXR file.
+    LabelSource labels(const std::string& dataset) const;
     /// kind: "background", "depth", ...; extension without its point.
     std::string clean_path(const std::string& kind, const std::string& extension) const;
     std::string rainy_path(double intensity, const std::string& kind, const std::string& extension) const;

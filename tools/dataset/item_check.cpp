@@ -7,6 +7,7 @@
 #include "renderer/image/image_io.h"
 #include "tools/dataset/item_files.h"
 #include "tools/dataset/layer_check.h"
+#include "tools/labels/label_check.h"
 
 #include <fmt/format.h>
 
@@ -199,6 +200,11 @@ private:
     }
 
     void check_layers(const std::string& path) {
+        if (!item_.options.layers.empty()) {
+            LabelFrame frame(item_.labels(dataset_));
+            const LabelCheck labels = check_labels(frame);
+            faults_.insert(faults_.end(), labels.faults.begin(), labels.faults.end());
+        }
         const LayerCheck check = checked_layers(full(path), item_.options.rain);
         if (check.not_finite() > 0) fault(path, fmt::format("{} values are not finite", check.not_finite()));
         if (!(check.residual() <= residual_limit))

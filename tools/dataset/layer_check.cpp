@@ -17,10 +17,12 @@ const std::vector<float>& LayerCheck::plane(const Band& band, const std::string&
 
 void LayerCheck::look(const Band& band) {
     for (size_t i = 0; i < band.planes.size(); ++i) {
-        const std::string& name = names_[i];
-        // Where there is only sky a depth is infinite.
-        const bool is_depth = name == "Z" || name == "distance.Y" || name.starts_with("rainy_Z_");
-        for (const float v : band.planes[i]) not_finite_ += is_depth ? std::isnan(v) : !std::isfinite(v);
+        // Where there is only sky a depth is infinite, and so is a label's position.
+        const auto is_depth = [](const std::string& name) {
+            return name == "Z" || name == "distance.Y" || name.starts_with("rainy_Z_");
+        };
+        const bool may_be_infinite = i >= names_.size() || is_depth(names_[i]);
+        for (const float v : band.planes[i]) not_finite_ += may_be_infinite ? std::isnan(v) : !std::isfinite(v);
     }
     for (const std::string& label : labels_)
         for (const char* channel : {".R", ".G", ".B"}) {

@@ -17,7 +17,7 @@ class LayerCheck {
 public:
     explicit LayerCheck(const std::vector<double>& intensities);
 
-    /// band: planes in the order of layer_channels().
+    /// band: planes in the order of layer_channels(), then labels, which must be numbers.
     void look(const Band& band);
 
     int64_t not_finite() const { return not_finite_; }

@@ -29,7 +29,9 @@ void Record::set_files(const std::vector<RecordedFile>& files) {
 std::string settings_hash(const DatasetItem& item, const PictureFormat& format, const std::string& scene_hash) {
     // The number of the layout: files of frames done by an older one are made anew.
     constexpr int layout = 1;
-    const std::string settings = json_text(to_json(item.options));
+    // Rules of labels are a file of their own: what they say counts, not what the file is called.
+    const std::string& rules = item.options.labels;
+    const std::string settings = json_text(to_json(item.options)) + (rules.empty() ? "" : hash_file(rules));
     return fmt::format("{:016x}",
                        hash_text(fmt::format("{} {} {} {} {} {} {} {}", layout, item.id(), item.split(), settings,
                                              scene_hash, format.bits, format.jpeg_quality, format.exr)));

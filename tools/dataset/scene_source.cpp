@@ -3,6 +3,7 @@
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
 #include "scenes/builders.h"
+#include "scenes/traffic.h"
 #include "tools/dataset/suggestion.h"
 
 #include <fmt/format.h>
@@ -63,9 +64,13 @@ const FrameScene& SceneSource::at(size_t index, const RenderOptions& options) {
     const DatasetScene& scene = config_->scenes[index];
     RenderOptions file = options;
     if (scene.is_built) {
-        file.scene = fmt::format("{}/{}.glb", scratch_, scene.source);
+        file.scene = fmt::format("{}/{}{}.glb", scratch_, scene.source, scene.traffic ? "-traffic" : "");
         std::error_code ignored;
-        if (!std::filesystem::exists(file.scene, ignored)) save_glb(find_builder(scene.source)->build(), file.scene);
+        if (!std::filesystem::exists(file.scene, ignored)) {
+            Scene built = find_builder(scene.source)->build();
+            const std::vector<NodeMotion> motions = scene.traffic ? add_traffic(built) : std::vector<NodeMotion>();
+            save_glb(built, file.scene, motions);
+        }
     }
     loaded_ = load_frame_scene(file);
     scene_ = index, time_ = time;

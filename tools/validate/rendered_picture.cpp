@@ -1,5 +1,6 @@
 #include "tools/validate/rendered_picture.h"
 
+#include "renderer/transport/frame_channels.h"
 #include "tools/validate/running_mean.h"
 
 #include <cstring>
@@ -13,7 +14,7 @@ double Picture::mean(const std::string& channel) const {
 }
 
 bool operator==(const Picture& a, const Picture& b) {
-    if (a.planes.size() != b.planes.size()) return false;
+    if (a.planes.size() != b.planes.size() || a.ids != b.ids) return false;
     for (const auto& [channel, plane] : a.planes) {
         const auto other = b.planes.find(channel);
         if (other == b.planes.end() || other->second.size() != plane.size() ||
@@ -27,13 +28,14 @@ Picture render_picture(const Scene& scene, const Environment& environment, const
                        const RenderSettings& settings) {
     Picture picture;
     picture.width = view.width, picture.height = view.height;
-    const auto channels = layer_channels(settings.rain.intensities_mm_per_h);
+    const FrameChannels channels = frame_channels(settings.rain.intensities_mm_per_h, settings.labels.layers);
+    const auto append = [](auto& all, const auto& rows) { all.insert(all.end(), rows.begin(), rows.end()); };
     picture.report = render(
         scene, environment, view, settings,
         [&](const Band& band) {
-            for (size_t c = 0; c < channels.size(); ++c)
-                picture.planes[channels[c]].insert(picture.planes[channels[c]].end(), band.planes[c].begin(),
-                                                   band.planes[c].end());
+            for (size_t c = 0; c < channels.values.size(); ++c)
+                append(picture.planes[channels.values[c]], band.planes[c]);
+            for (size_t c = 0; c < channels.ids.size(); ++c) append(picture.ids[channels.ids[c]], band.ids[c]);
         },
         [](double) { return true; });
     return picture;

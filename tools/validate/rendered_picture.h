@@ -3,6 +3,7 @@
 
 #include "renderer/transport/render.h"
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ class Picture {
 public:
     int width = 0, height = 0;
     std::map<std::string, std::vector<float>> planes;
+    std::map<std::string, std::vector<uint32_t>> ids;
     RenderReport report;
 
     const std::vector<float>& plane(const std::string& channel) const { return planes.at(channel); }
