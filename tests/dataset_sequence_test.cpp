@@ -18,10 +18,11 @@ constexpr auto over_time =
 /// The court of SmallDataset in sequences of four frames.
 struct Sequences {
     SmallDataset dataset;
-    explicit Sequences(const std::string& more = "") {
+    explicit Sequences(const std::string& exposure = "6", const std::string& more = "") {
         write_file(dataset.config_path(), over_time + more +
                                               "scenes:\n  - scene: court.glb\n    frames: 4\n    hour: 13.5\n"
-                                              "    exposure: 6\n    train: [eye]\n    test: [low]\n");
+                                              "    exposure: " +
+                                              exposure + "\n    train: [eye]\n    test: [low]\n");
     }
 };
 
@@ -106,6 +107,22 @@ TEST_CASE("a sequence is made, proven, and written as a clip where ffmpeg is ins
     CHECK(std::system(probe.c_str()) == 0);
     CHECK(s.dataset.command("check", "out").exit_code == 0);  // clips are no strays
     CHECK(s.dataset.command("video", "out", "--picture depth").exit_code == 2);
+}
+
+TEST_CASE("all frames of a sequence have one exposure, also of one that is made in parts") {
+    const Sequences s("auto", "lamps: off\n");
+    REQUIRE(s.dataset.command("run", "whole").exit_code == 0);
+    std::set<double> values;
+    const auto exposure = [&](const std::string& run, const std::string& id) {
+        return Json::parse(read_file(s.dataset.folder / (run + "/records/court/" + id + ".json")))["exposure_ev100"]
+            .get<double>();
+    };
+    for (int frame = 0; frame < 4; ++frame) values.insert(exposure("whole", "eye/frame_000" + std::to_string(frame)));
+    CHECK(values.size() == 1);
+    CHECK(*values.begin() > 0);
+    CHECK(exposure("whole", "low/frame_0000") != *values.begin());  // another camera sees something else
+    REQUIRE(s.dataset.command("run", "part", "--shard 2/3").exit_code == 0);
+    CHECK(exposure("part", "eye/frame_0003") == *values.begin());
 }
 
 TEST_CASE("clips of an unfinished sequence are refused") {

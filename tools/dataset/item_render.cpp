@@ -44,8 +44,9 @@ Json record_json(const DatasetItem& item, const PictureFormat& format, const std
 
 void make_item(const std::string& dataset, const std::string& scratch, const DatasetItem& item,
                const PictureFormat& format, const FrameScene& scene, const std::string& scene_hash,
-               const ProgressCallback& progress) {
-    const FrameSettings settings(item.options);
+               std::optional<double> ev100, const ProgressCallback& progress) {
+    FrameSettings settings(item.options);
+    if (ev100) settings.ev100 = ev100;
     LayerCheck check(item.options.rain);
     const std::string exr = scratch + "/layers.exr";
     const RenderedFrame frame =

@@ -7,11 +7,12 @@
 namespace pluvia {
 
 /// scratch: an empty folder of the dataset's file system; left empty but for what a failure leaves.
+/// ev100: an exposure that the frame shares with others; empty: its own.
 /// Files of an older record that the new one no longer names are removed.
 /// Throws Error: some_failed when the frame itself is at fault (values that are not finite), stopped_early when
 /// progress says so, others when nothing more can be done, as on a full disk.
 void make_item(const std::string& dataset, const std::string& scratch, const DatasetItem& item,
                const PictureFormat& format, const FrameScene& scene, const std::string& scene_hash,
-               const ProgressCallback& progress);
+               std::optional<double> ev100, const ProgressCallback& progress);
 
 }  // namespace pluvia

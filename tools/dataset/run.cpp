@@ -5,6 +5,7 @@
 #include "tools/dataset/item_render.h"
 #include "tools/dataset/run_log.h"
 #include "tools/dataset/scene_source.h"
+#include "tools/dataset/sequence_exposure.h"
 #include "tools/dataset/work_folder.h"
 
 #include <fmt/format.h>
@@ -69,6 +70,7 @@ RunResult run_dataset(const DatasetConfig& config, const std::string& dataset, c
     std::cerr << fmt::format("pluvia: {} of {} frames are done, {} to make\n", result.already_done, items.size(),
                              to_make);
 
+    SequenceExposure exposure(dataset_items(config), work.path());
     RunLog log(dataset, settings.shard);
     Progress progress(settings.progress, config.name);
     size_t handled = 0;
@@ -79,8 +81,9 @@ RunResult run_dataset(const DatasetConfig& config, const std::string& dataset, c
         std::filesystem::create_directory(scratch);
         const auto start = std::chrono::steady_clock::now();
         try {
+            const std::optional<double> ev100 = exposure.of(item, source);
             make_item(dataset, scratch, item, config.pictures, source.at(item.scene, item.options),
-                      hashes.at(item.scene),
+                      hashes.at(item.scene), ev100,
                       [&](double share) { return progress.update((double(handled) + share) / double(to_make)); });
             ++result.made;
             log.add_done(item, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
