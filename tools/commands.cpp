@@ -24,6 +24,7 @@ int run(int argc, const char* const* argv) {
     add_learn_command(app);
     add_dataset_command(app);
     add_streaks_command(app);
+    add_augment_command(app);
     return parse_and_run(app, argc, argv);
 }
 

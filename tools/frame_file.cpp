@@ -42,6 +42,8 @@ std::array<float, 16> camera_to_ndc(const View& view) {
     std::array<float, 16> m = {};
     m[0] = float(2 * view.focal_pixels / view.width);
     m[5] = float(2 * view.focal_pixels / view.height);
+    m[8] = float(-2 * view.centre_offset.x / view.width);
+    m[9] = float(2 * view.centre_offset.y / view.height);
     m[10] = -1;
     m[11] = -1;
     return m;
@@ -100,7 +102,9 @@ nlohmann::ordered_json frame_json(const FrameHeader& h, double ev100, const Coun
     const View& v = h.view;
     nlohmann::ordered_json j;
     j["version"] = PLUVIA_VERSION;
-    j["scene"] = {{"name", h.scene_name}, {"hash", fmt::format("{:016x}", h.scene_hash)}};
+    j["scene"] = {{"name", h.scene_name},
+                  {"hash", fmt::format("{:016x}", h.scene_hash)},
+                  {"origin", {h.scene_origin.x, h.scene_origin.y, h.scene_origin.z}}};
     j["settings"] = h.options;
     const Vec3d p = v.position + h.scene_origin;
     const auto row = [](Vec3d a, double t) { return nlohmann::ordered_json{a.x, a.y, a.z, t}; };
@@ -111,7 +115,10 @@ nlohmann::ordered_json frame_json(const FrameHeader& h, double ev100, const Coun
                      row({v.right.z, v.up.z, v.back.z}, p.z),
                      {0, 0, 0, 1}}},
                    {"axes", "x right, y up, looks along -z"},
-                   {"intrinsics", {{v.focal_pixels, 0, v.width / 2.0}, {0, v.focal_pixels, v.height / 2.0}, {0, 0, 1}}},
+                   {"intrinsics",
+                    {{v.focal_pixels, 0, v.width / 2.0 + v.centre_offset.x},
+                     {0, v.focal_pixels, v.height / 2.0 + v.centre_offset.y},
+                     {0, 0, 1}}},
                    {"shutter_open_s", v.shutter_open},
                    {"exposure_time_s", v.exposure_time}};
     j["exposure_ev100"] = ev100;

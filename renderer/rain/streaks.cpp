@@ -84,8 +84,13 @@ SearchRegion search_region(const View& view, const RainSettings& settings, const
 
     SearchRegion region;
     region.camera = camera_at_open(view);
-    const double x = view.width / (2 * view.focal_pixels), y = view.height / (2 * view.focal_pixels);
-    const std::array<Vec3d, 4> side_normals = {Vec3d(1, 0, -x), Vec3d(-1, 0, -x), Vec3d(0, 1, -y), Vec3d(0, -1, -y)};
+    // Slopes of the picture's sides against the axis.
+    const double half_width = view.width / 2.0, half_height = view.height / 2.0, f = view.focal_pixels;
+    const double right = (half_width - view.centre_offset.x) / f, left = (half_width + view.centre_offset.x) / f;
+    const double top = (half_height + view.centre_offset.y) / f, bottom = (half_height - view.centre_offset.y) / f;
+    const double x = std::max(left, right), y = std::max(top, bottom);
+    const std::array<Vec3d, 4> side_normals = {Vec3d(1, 0, -right), Vec3d(-1, 0, -left), Vec3d(0, 1, -top),
+                                               Vec3d(0, -1, -bottom)};
     double margin = 0;
     for (int i = 0; i < 4; ++i) {
         const Vec3d normal = normalize(view.world_vector_from_view(side_normals[i]));

@@ -26,7 +26,8 @@ struct Frame {
     const View& view;
     const RenderSettings& settings;
     const PathTracer& tracer;
-    const StreakBins* bins = nullptr;  // null where there is no rain
+    const PictureSource* picture = nullptr;  // in place of camera paths
+    const StreakBins* bins = nullptr;        // null where there is no rain
     std::optional<RainStage> rain;
     const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
 
@@ -71,7 +72,8 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
     const Ray ray = scene_ray(frame.view, seen);
     counters.count(Feature::camera_path);
-    const PathResult path = frame.tracer.trace(ray, {}, sampler, 0, counters);
+    const PathResult path =
+        frame.picture ? frame.picture->along(x, y, seen) : frame.tracer.trace(ray, {}, sampler, 0, counters);
     if (!is_finite(path.radiance)) {
         ++counters.invalid_samples;
         return;
@@ -105,11 +107,14 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
     const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
     Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
-    RayHit hit;
     CentreDepth& depth = scratch.depth;
-    const bool found =
-        frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
-    depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
+    RayHit hit;
+    if (frame.picture)
+        depth.distance = frame.picture->along(x, y, seen).distance;
+    else if (frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters))
+        depth.distance = hit.distance;
+    else
+        depth.distance = std::numeric_limits<float>::infinity();
     depth.z = depth.distance * seen.direction.z;
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
     if (!frame.bins) return;
@@ -233,7 +238,8 @@ private:
 }  // namespace
 
 RenderReport render(const Scene& scene, const Environment& environment, const View& view,
-                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress) {
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress,
+                    const PictureSource* picture) {
     RenderReport report;
     const auto start = Clock::now();
     const RayScene ray_scene(scene);
@@ -241,7 +247,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     std::optional<RainShadow> shadow;
     const bool fine_rain =
         !settings.rain.intensities_mm_per_h.empty() && settings.streaks.composition == Composition::physical;
-    if (fine_rain || settings.wet.any()) shadow.emplace(scene, ray_scene, settings.rain.wind);
+    if (!picture && (fine_rain || settings.wet.any())) shadow.emplace(scene, ray_scene, settings.rain.wind);
     std::optional<WetGround> wet_ground;
     const double time = view.shutter_open + view.exposure_time / 2;
     if (settings.wet.any()) wet_ground.emplace(scene, *shadow, settings.wet, time, settings.rain.seed);
@@ -249,21 +255,21 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
-    Frame frame{view, settings, tracer, nullptr, std::nullopt};
+    Frame frame{view, settings, tracer, picture, nullptr, std::nullopt};
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
         const Bounds box = bounds(scene);
         rain.lowest_ground = box.empty() ? view.position.y - 100 : box.lower.y;
         std::vector<Streak> streaks = find_streaks(view, rain);
         report.sheltered_streaks = streaks.size();
-        remove_sheltered(streaks, view, ray_scene, report.counters);
+        if (!picture) remove_sheltered(streaks, view, ray_scene, report.counters);
         report.sheltered_streaks -= streaks.size();
         report.streaks = streaks.size();
         bins.emplace(std::move(streaks), view);
         frame.bins = &*bins;
         // The paper's pictures have streaks in clear air.
         if (fine_rain || rain.fog_extinction > 0) medium.emplace(view, rain, fine_rain);
-        if (fine_rain) frame.shadow = &*shadow;
+        if (shadow && fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
     report.build_seconds = seconds_since(start);

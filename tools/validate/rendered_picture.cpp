@@ -24,7 +24,7 @@ bool operator==(const Picture& a, const Picture& b) {
 }
 
 Picture render_picture(const Scene& scene, const Environment& environment, const View& view,
-                       const RenderSettings& settings) {
+                       const RenderSettings& settings, const PictureSource* source) {
     Picture picture;
     picture.width = view.width, picture.height = view.height;
     const auto channels = layer_channels(settings.rain.intensities_mm_per_h);
@@ -35,7 +35,7 @@ Picture render_picture(const Scene& scene, const Environment& environment, const
                 picture.planes[channels[c]].insert(picture.planes[channels[c]].end(), band.planes[c].begin(),
                                                    band.planes[c].end());
         },
-        [](double) { return true; });
+        [](double) { return true; }, source);
     return picture;
 }
 
