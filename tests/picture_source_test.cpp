@@ -35,6 +35,7 @@ RenderSettings rainy(int samples) {
     settings.samples = samples;
     settings.seed = settings.rain.seed = 11;
     settings.rain.intensities_mm_per_h = {10, 100};
+    settings.rain.min_width_pixels = 0.05;  // a small picture has few drops a pixel wide
     return settings;
 }
 
@@ -50,10 +51,12 @@ Scene open_place() {
 TEST_CASE("a render augmented from its own background and depth has its own coverage, drop for drop") {
     const Scene scene = open_place();
     const Environment world = Environment::uniform(Rgb(1, 1.1f, 1.3f));
-    const View view = look_at({0, 1.6, 6}, {0, 2.2, 0}, 160, 80, 400);
+    // No streak is near a surface: there the depth inside of a pixel decides, of which a picture knows one value.
+    const View view = look_at({0, 1.6, 6}, {0, 3.2, 0}, 160, 80, 400);
     for (const Composition composition : {Composition::physical, Composition::paper}) {
         RenderSettings settings = rainy(16);
         settings.streaks.composition = composition;
+        settings.rain.min_width_pixels = 0.25;
         const Picture rendered = render_picture(scene, world, view, settings);
         const Picture augmented = augment_picture(source_of(rendered), view, settings);
         CAPTURE(int(composition));
@@ -99,18 +102,19 @@ TEST_CASE("in a picture of one grey rain is invisible, with its depth, its sky a
         for (int x = 0; x < 48; ++x) source.z.at(x, y) = 60.0f / float(y - 10);
     RenderSettings settings = rainy(16);
     std::vector<RunningMean> pixels(48 * 24);
-    RunningMean all;
+    RunningMean all, light;
     for (uint64_t seed = 0; seed < 64; ++seed) {
         settings.seed = settings.rain.seed = seed;
         const Picture picture = augment_picture(source, view, settings);
         for (size_t i = 0; i < pixels.size(); ++i) pixels[i].add(picture.plane("rainy_100.G")[i]);
-        CHECK(picture.mean("rain_100.G") > 0);
+        light.add(picture.mean("rain_100.G"));
     }
     int outliers = 0;
     for (const RunningMean& pixel : pixels) {
         all.add(pixel.mean());
         outliers += !pixel.agrees_with(1, 1e-6);
     }
+    CHECK(light.mean() > 1e-3);
     CAPTURE(all.mean());
     CHECK(std::abs(all.mean() - 1) < 1e-3);  // 1.2 million samples of which rain takes some per cent away
     CHECK(outliers == 0);
@@ -182,7 +186,7 @@ TEST_CASE("a stereo pair sees the same drops, near ones shifted by focal length 
     right.position = left.position + left.right * baseline;
     RainSettings rain;
     rain.intensities_mm_per_h = {100};
-    rain.min_width_pixels = 1;
+    rain.min_width_pixels = 0.25;
     const std::vector<Streak> a = find_streaks(left, rain), b = find_streaks(right, rain);
     int pairs = 0;
     for (const Streak& l : a) {
@@ -197,7 +201,7 @@ TEST_CASE("a stereo pair sees the same drops, near ones shifted by focal length 
     // On the pictures: the nearest wide streak of the left one is found by its disparity on the right one.
     const PictureSource wall{Image<Rgb>(128, 64, Rgb(1)), Image<float>(128, 64, 2)};
     RenderSettings settings = rainy(4);
-    settings.rain.min_width_pixels = 1;
+    settings.rain.min_width_pixels = 0.25;
     const Picture p = augment_picture(wall, left, settings), q = augment_picture(wall, right, settings);
     int seen = 0, found = 0;
     for (int y = 0; y < 64; ++y)

@@ -27,8 +27,10 @@ struct Frame {
     const RenderSettings& settings;
     const PathTracer& tracer;
     const PictureSource* picture = nullptr;  // in place of camera paths
+    float dark = 0;                          // luminance of a picture at which noise does not show, cd/m2
+    bool has_medium = false;                 // of fine rain or fog
     const StreakBins* bins = nullptr;        // null where there is no rain
-    std::optional<RainStage> rain;
+    std::optional<RainStage> rain = std::nullopt;
     const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
 
     size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
@@ -84,7 +86,8 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 
     seen.t_max = path.distance;
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
-    CameraSegment segment{pixel, scratch.candidates, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    CameraSegment segment{pixel, scratch.candidates, ray,
+                          seen,  path.radiance,      std::max(frame.dark, luminance(mean) / float(index + 1))};
     if (frame.shadow)
         segment.dry =
             scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, path.distance, counters);
@@ -130,6 +133,14 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     }
 }
 
+/// A quarter of the picture's mean: light that is computed for the samples that it is worth leaves noise below a level
+/// of 8 bits there.
+float dark_luminance(const PictureSource& picture) {
+    double sum = 0;
+    for (const Rgb c : picture.radiance.pixels) sum += luminance(c);
+    return float(sum / double(picture.radiance.pixels.size()) / 4);
+}
+
 /// Counts finished pixels and passes the news on. Whoever comes while another thread tells it goes on.
 class PixelProgress {
 public:
@@ -159,7 +170,10 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
             scratch.sums.background = {};
             scratch.sums.rain.assign(frame.intensity_count(), {});
             if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
-            for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+            if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
+                add(scratch.sums.background, frame.picture->radiance.at(x, y) * float(frame.settings.samples));
+            else
+                for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
             find_depth(frame, x, y, scratch, counters);
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
@@ -255,11 +269,13 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
-    Frame frame{view, settings, tracer, picture, nullptr, std::nullopt};
+    Frame frame{view, settings, tracer, picture, picture ? dark_luminance(*picture) : 0};
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
         const Bounds box = bounds(scene);
         rain.lowest_ground = box.empty() ? view.position.y - 100 : box.lower.y;
+        // A picture may show no ground; there is none at the height of its camera.
+        if (picture) rain.lowest_ground = std::min(rain.lowest_ground, view.position.y - 2);
         std::vector<Streak> streaks = find_streaks(view, rain);
         report.sheltered_streaks = streaks.size();
         if (!picture) remove_sheltered(streaks, view, ray_scene, report.counters);
@@ -269,6 +285,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         frame.bins = &*bins;
         // The paper's pictures have streaks in clear air.
         if (fine_rain || rain.fog_extinction > 0) medium.emplace(view, rain, fine_rain);
+        frame.has_medium = medium.has_value();
         if (shadow && fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }

@@ -29,7 +29,10 @@ Table read_rows(const std::string& path, const std::function<bool(const Json&)>&
         });
         Table table;
         for (Json& row : json)
-            if (row.is_object()) table[row.at("token")] = std::move(row);
+            if (row.is_object()) {
+                const std::string token = row.at("token");
+                table[token] = std::move(row);
+            }
         return table;
     } catch (const Json::exception& e) {
         throw input_error(path, fmt::format("is no table of nuScenes ({})", e.what()));
