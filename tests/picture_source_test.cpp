@@ -77,12 +77,17 @@ TEST_CASE("a render augmented from its own background and depth has the colours 
     const Picture clean = render_picture(scene, world, view, settings);
     PictureSource source = source_of(clean);
     for (const bool given : {true, false}) {
-        RunningMean light, own_light;
+        RunningMean light, own_light, far_veil, own_veil;
         for (uint64_t seed = 0; seed < 24; ++seed) {
             settings.seed = settings.rain.seed = seed;
             const Picture rendered = render_picture(scene, world, view, settings);
             const Picture augmented = augment_picture(source_of(rendered), view, settings, given ? &world : nullptr);
             own_light.add(rendered.mean("rain_100.G") + rendered.mean("inscatter_100.G"));
+            settings.streaks.far_light = std::make_shared<FarLight>(
+                make_far_light(source, view, given ? world : estimate_environment(source, view)));
+            far_veil.add(augment_picture(source, view, settings, given ? &world : nullptr).mean("inscatter_100.G"));
+            settings.streaks.far_light = nullptr;
+            own_veil.add(rendered.mean("inscatter_100.G"));
             light.add(augmented.mean("rain_100.G") + augmented.mean("inscatter_100.G"));
         }
         CAPTURE(given);
@@ -92,6 +97,9 @@ TEST_CASE("a render augmented from its own background and depth has the colours 
         // which a lens of 23 degrees shows the middle: the rest, up to half of the light, is as bright as the estimate
         // says. Here it is right to a quarter.
         CHECK(light.mean() == doctest::Approx(own_light.mean()).epsilon(0.25));
+        CAPTURE(far_veil.mean());
+        CAPTURE(own_veil.mean());
+        CHECK(far_veil.mean() == doctest::Approx(own_veil.mean()).epsilon(0.25));
     }
 }
 
@@ -101,11 +109,15 @@ TEST_CASE("in a picture of one grey rain is invisible, with its depth, its sky a
     for (int y = 13; y < 24; ++y)
         for (int x = 0; x < 48; ++x) source.z.at(x, y) = 60.0f / float(y - 10);
     RenderSettings settings = rainy(16);
+    // Traced, and with the table in the second half of the seeds.
+    const auto far = std::make_shared<FarLight>(make_far_light(source, view, estimate_environment(source, view)));
     std::vector<RunningMean> pixels(48 * 24);
     RunningMean all, light;
     for (uint64_t seed = 0; seed < 64; ++seed) {
         settings.seed = settings.rain.seed = seed;
+        if (seed == 32) settings.streaks.far_light = far;
         const Picture picture = augment_picture(source, view, settings);
+        CHECK((picture.report.counters[Feature::medium_path] > 0) == (seed < 32));
         for (size_t i = 0; i < pixels.size(); ++i) pixels[i].add(picture.plane("rainy_100.G")[i]);
         light.add(picture.mean("rain_100.G"));
     }

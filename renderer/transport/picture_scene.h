@@ -5,6 +5,7 @@
 
 #include "renderer/core/view.h"
 #include "renderer/scene/scene.h"
+#include "renderer/transport/far_light.h"
 #include "renderer/transport/picture_source.h"
 #include "shaders/environment.h"
 
@@ -27,5 +28,9 @@ Scene make_picture_scene(const PictureSource& picture, const View& view, const P
 /// it is that of the front, mirrored.
 Environment estimate_environment(const PictureSource& picture, const View& view,
                                  const PictureSceneSettings& settings = {});
+
+/// What fine rain shows: in the picture's direction the picture without its lamps, elsewhere the environment.
+FarLight make_far_light(const PictureSource& picture, const View& view, const Environment& environment,
+                        const PictureSceneSettings& settings = {});
 
 }  // namespace pluvia

@@ -67,6 +67,12 @@ void add_augment_options(CLI::App& command, AugmentOptions& o) {
     const auto* quality = "Accuracy";
     const CLI::Validator seed_range = CLI::Range(0.0, 0x1p64 * (1 - 0x1p-53)).description("");
     command.add_option("--spp", r.spp, "samples per pixel")->capture_default_str()->group(quality);
+    command
+        .add_option("--veil", o.veil,
+                    "light of rain too fine for streaks: far, as if all that it shows were far away, quick and smooth "
+                    "but BIASED; or traced. Pictures with lamps and fog are always traced")
+        ->capture_default_str()
+        ->group(quality);
     command.add_option("--seed", r.seed, "of all random numbers")
         ->check(seed_range)
         ->capture_default_str()
@@ -113,7 +119,7 @@ nlohmann::ordered_json to_json(const AugmentOptions& o) {
     optional("focal-length", r.focal_length), optional("f-number", r.f_number), optional("focus", r.focus);
     j["shutter"] = r.shutter;
     if (!r.camera_velocity.empty()) j["camera-velocity"] = r.camera_velocity;
-    j["spp"] = r.spp, j["seed"] = r.seed;
+    j["spp"] = r.spp, j["veil"] = o.veil, j["seed"] = r.seed;
     j["rain"] = r.rain, j["wind"] = r.wind, j["composition"] = r.composition;
     j["streak-gain"] = r.streak_gain, j["fog-beta"] = r.fog_beta;
     if (r.composition == "paper") j["streak-distance"] = r.streak_distance, j["streak-share"] = r.streak_share;

@@ -19,7 +19,7 @@ struct AugmentOptions {
     std::string calibration;            // JSON file
     std::optional<double> fov;          // degrees across the picture
     std::optional<double> baseline;     // metres between the cameras of a stereo pair
-    std::string curve = "srgb";
+    std::string curve = "srgb", veil = "far";
     bool delta_only = false, exr = false, dry_run = false;
     std::string shard = "1/1";
 
