@@ -25,6 +25,7 @@ int run(int argc, const char* const* argv) {
     add_dataset_command(app);
     add_labels_command(app);
     add_streaks_command(app);
+    add_augment_command(app);
     return parse_and_run(app, argc, argv);
 }
 

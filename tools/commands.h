@@ -14,6 +14,7 @@ void add_learn_command(CLI::App& app);
 void add_dataset_command(CLI::App& app);
 void add_labels_command(CLI::App& app);
 void add_streaks_command(CLI::App& app);
+void add_augment_command(CLI::App& app);
 
 /// The whole program but for its process: parses, runs and reports errors on stderr. Returns the exit code.
 int run(int argc, const char* const* argv);

@@ -26,13 +26,13 @@ Plane box_sums(const Plane& plane, int width, int height) {
 
 }  // namespace
 
-FrameRows read_frame_rows(ExrReader& exr, int y, const std::vector<double>& intensities) {
+FrameRows read_frame_rows(int width, int height, const RowReader& read, int y, const std::vector<double>& intensities) {
     FrameRows rows;
-    rows.width = exr.width();
+    rows.width = width;
     rows.band_begin = y;
-    rows.band_count = std::min(display_band_rows, exr.height() - y);
+    rows.band_count = std::min(display_band_rows, height - y);
     rows.begin = std::max(0, y - mask_radius);
-    rows.count = std::min(exr.height(), y + rows.band_count + mask_radius) - rows.begin;
+    rows.count = std::min(height, y + rows.band_count + mask_radius) - rows.begin;
     rows.rain.resize(intensities.size());
     std::vector<ExrRequest> requests;
     const auto ask = [&](Plane& plane, const std::string& channel) {
@@ -54,7 +54,7 @@ FrameRows read_frame_rows(ExrReader& exr, int y, const std::vector<double>& inte
         ask(rows.rain[i].wide_coverage, "rain_wide_" + label + ".A");
         ask(rows.rain[i].rainy_z, "rainy_Z_" + label);
     }
-    exr.read_rows(rows.begin, rows.count, requests);
+    read(rows.begin, rows.count, requests);
     return rows;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace pluvia {
@@ -36,8 +37,15 @@ struct FrameRows {
     size_t band_pixels() const { return size_t(band_count) * width; }
 };
 
-/// Those of the band of at most display_band_rows that begins at row y.
-FrameRows read_frame_rows(ExrReader& exr, int y, const std::vector<double>& intensities);
+/// Gives rows y to y + count - 1 of the channels asked for.
+using RowReader = std::function<void(int y, int count, std::span<const ExrRequest> requests)>;
+
+/// Those of the band of at most display_band_rows that begins at row y, of a picture of this size.
+FrameRows read_frame_rows(int width, int height, const RowReader& read, int y, const std::vector<double>& intensities);
+inline FrameRows read_frame_rows(ExrReader& exr, int y, const std::vector<double>& intensities) {
+    const auto read = [&](int first, int count, std::span<const ExrRequest> r) { exr.read_rows(first, count, r); };
+    return read_frame_rows(exr.width(), exr.height(), read, y, intensities);
+}
 
 /// The band's pixels as a view shows them, scale being exposure_scale() of the frame.
 std::vector<Rgb> displayed(const FrameRows& rows, const ColorPlanes& color, const DisplayView& view, float scale);

@@ -44,6 +44,8 @@ std::array<float, 16> camera_to_ndc(const View& view) {
     std::array<float, 16> m = {};
     m[0] = float(2 * view.focal_pixels / view.width);
     m[5] = float(2 * view.focal_pixels / view.height);
+    m[8] = float(-2 * view.centre_offset.x / view.width);
+    m[9] = float(2 * view.centre_offset.y / view.height);
     m[10] = -1;
     m[11] = -1;
     return m;
@@ -117,12 +119,17 @@ nlohmann::ordered_json frame_json(const FrameHeader& h, double ev100, const Coun
     const View& v = h.view;
     nlohmann::ordered_json j;
     j["version"] = PLUVIA_VERSION;
-    j["scene"] = {{"name", h.scene_name}, {"hash", fmt::format("{:016x}", h.scene_hash)}};
+    j["scene"] = {{"name", h.scene_name},
+                  {"hash", fmt::format("{:016x}", h.scene_hash)},
+                  {"origin", {h.scene_origin.x, h.scene_origin.y, h.scene_origin.z}}};
     j["settings"] = h.options;
     j["camera"] = {{"name", h.camera_name},
                    {"world_from_camera", world_from_camera(v, h.scene_origin)},
                    {"axes", "x right, y up, looks along -z"},
-                   {"intrinsics", {{v.focal_pixels, 0, v.width / 2.0}, {0, v.focal_pixels, v.height / 2.0}, {0, 0, 1}}},
+                   {"intrinsics",
+                    {{v.focal_pixels, 0, v.width / 2.0 + v.centre_offset.x},
+                     {0, v.focal_pixels, v.height / 2.0 + v.centre_offset.y},
+                     {0, 0, 1}}},
                    {"shutter_open_s", v.shutter_open},
                    {"exposure_time_s", v.exposure_time}};
     if (h.next) j["camera"]["world_from_camera_next"] = world_from_camera(*h.next, h.scene_origin);

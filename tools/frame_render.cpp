@@ -51,11 +51,14 @@ FrameSettings::FrameSettings(const RenderOptions& options)
     if (!options.labels.empty()) label_rules = read_label_rules(options.labels);
     const DisplayView check(options.view);
     environment = make_environment(options.light, !options.rain.empty());
-    if (display.paper && !options.rain.empty()) {
-        const Progress::Style style = Progress::style_from_name(options.progress);
-        render.streaks.textures = std::make_shared<StreakTextures>(
-            options.streaks.empty() ? cached_streaks(StreakTracing(), style) : read_streaks(options.streaks));
-    }
+    render.streaks.textures = streak_textures(options);
+}
+
+std::shared_ptr<const StreakTextures> streak_textures(const RenderOptions& options) {
+    if (options.composition != "paper" || options.rain.empty()) return nullptr;
+    const Progress::Style style = Progress::style_from_name(options.progress);
+    return std::make_shared<StreakTextures>(options.streaks.empty() ? cached_streaks(StreakTracing(), style)
+                                                                    : read_streaks(options.streaks));
 }
 
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,

@@ -36,6 +36,9 @@ struct FrameSettings {
     std::vector<LabelRule> label_rules;
 };
 
+/// What streaks look like with the paper's composition, where there is rain; else nothing is read.
+std::shared_ptr<const StreakTextures> streak_textures(const RenderOptions& options);
+
 struct RenderedFrame {
     FrameHeader header;
     double ev100;  // of the pictures to be made

@@ -1,6 +1,64 @@
 #include "tools/render_options.h"
 
 namespace pluvia {
+namespace {
+
+/// CLI11 lets -1 wrap around and cuts what is larger.
+CLI::Validator seed_range() {
+    return CLI::Range(0.0, 0x1p64 * (1 - 0x1p-53)).description("");
+}
+
+}  // namespace
+
+void add_rain_options(CLI::App& command, RenderOptions& o) {
+    const auto* rain = "Rain (seen directly, not in mirrors, puddles or through glass)";
+    command
+        .add_option("--rain", o.rain,
+                    "intensities in mm/h, e.g. 10,25,50,100; 0 to 1000 (drop sizes are a fit up to about 500)")
+        ->delimiter(',')
+        ->group(rain);
+    command.add_option("--wind", o.wind, "X,Y,Z in m/s")->delimiter(',')->expected(3)->group(rain);
+    command
+        .add_option("--wind-travel", o.wind_travel,
+                    "X,Y,Z: metres that the air has moved since the sequence began; default: wind times the time; for "
+                    "sequences in which the wind changes and drops go on from frame to frame")
+        ->delimiter(',')
+        ->expected(3)
+        ->group(rain);
+    command.add_option("--rain-seed", o.rain_seed, "of the drops; default: --seed")->check(seed_range())->group(rain);
+    command.add_option("--composition", o.composition, "physical, or paper: the formula of 'Learning from Rendering'")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option("--streak-gain", o.streak_gain,
+                    "paper: factor on the light of streaks; 1 = exact, 24.5 = the published code")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option(
+            "--streak-distance", o.streak_distance,
+            "paper: drops beyond this many metres are drawn as wide as at it, up to 20 times as far; 1.78 = the "
+            "published code, 0 = true width")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option("--streak-share", o.streak_share,
+                    "paper: share of the drops that is drawn; 0.043 = the published code")
+        ->capture_default_str()
+        ->group(rain);
+    command
+        .add_option("--streaks", o.streaks,
+                    "paper: folder of a streak database in Garg and Nayar's layout; default: traced once and kept")
+        ->group(rain);
+    command
+        .add_option("--streak-width", o.streak_width,
+                    "pixels; narrower drops are not streaks but a medium [0.25]; paper: they are left out [1]")
+        ->group(rain);
+    command
+        .add_option("--fog-beta", o.fog_beta, "extinction in 1/m of a fog beside the rain; 0.001: one sees 4 km far")
+        ->capture_default_str()
+        ->group(rain);
+}
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("scene", o.scene, "glTF file, .glb or .gltf")->required();
@@ -37,8 +95,6 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->group(camera);
 
     const auto* quality = "Accuracy";
-    // CLI11 lets -1 wrap around and cuts what is larger.
-    const CLI::Validator seed_range = CLI::Range(0.0, 0x1p64 * (1 - 0x1p-53)).description("");
     command.add_option("--spp", o.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
         .add_option(
@@ -47,57 +103,11 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->capture_default_str()
         ->group(quality);
     command.add_option("--seed", o.seed, "of all random numbers")
-        ->check(seed_range)
+        ->check(seed_range())
         ->capture_default_str()
         ->group(quality);
 
-    const auto* rain = "Rain (seen directly, not in mirrors, puddles or through glass)";
-    command
-        .add_option("--rain", o.rain,
-                    "intensities in mm/h, e.g. 10,25,50,100; 0 to 1000 (drop sizes are a fit up to about 500)")
-        ->delimiter(',')
-        ->group(rain);
-    command.add_option("--wind", o.wind, "X,Y,Z in m/s")->delimiter(',')->expected(3)->group(rain);
-    command
-        .add_option("--wind-travel", o.wind_travel,
-                    "X,Y,Z: metres that the air has moved since the sequence began; default: wind times the time; for "
-                    "sequences in which the wind changes and drops go on from frame to frame")
-        ->delimiter(',')
-        ->expected(3)
-        ->group(rain);
-    command.add_option("--rain-seed", o.rain_seed, "of the drops; default: --seed")->check(seed_range)->group(rain);
-    command.add_option("--composition", o.composition, "physical, or paper: the formula of 'Learning from Rendering'")
-        ->capture_default_str()
-        ->group(rain);
-    command
-        .add_option("--streak-gain", o.streak_gain,
-                    "paper: factor on the light of streaks; 1 = exact, 24.5 = the published code")
-        ->capture_default_str()
-        ->group(rain);
-    command
-        .add_option(
-            "--streak-distance", o.streak_distance,
-            "paper: drops beyond this many metres are drawn as wide as at it, up to 20 times as far; 1.78 = the "
-            "published code, 0 = true width")
-        ->capture_default_str()
-        ->group(rain);
-    command
-        .add_option("--streak-share", o.streak_share,
-                    "paper: share of the drops that is drawn; 0.043 = the published code")
-        ->capture_default_str()
-        ->group(rain);
-    command
-        .add_option("--streaks", o.streaks,
-                    "paper: folder of a streak database in Garg and Nayar's layout; default: traced once and kept")
-        ->group(rain);
-    command
-        .add_option("--streak-width", o.streak_width,
-                    "pixels; narrower drops are not streaks but a medium [0.25]; paper: they are left out [1]")
-        ->group(rain);
-    command
-        .add_option("--fog-beta", o.fog_beta, "extinction in 1/m of a fog beside the rain; 0.001: one sees 4 km far")
-        ->capture_default_str()
-        ->group(rain);
+    add_rain_options(command, o);
 
     const auto* wet = "Wet ground (of the clean picture; where rain reaches, with --wind; what is marked stays dry)";
     command.add_option("--wetness", o.wetness, "film of water: 0 = dry, 1 = closed")->capture_default_str()->group(wet);

@@ -55,6 +55,8 @@ inline double streak_width(const RenderOptions& options) {
     return options.streak_width.value_or(options.composition == "paper" ? 1 : RainSettings().min_width_pixels);
 }
 
+/// Those of the rain itself, for every command that makes some.
+void add_rain_options(CLI::App& command, RenderOptions& options);
 void add_render_options(CLI::App& command, RenderOptions& options);
 
 /// Throw Error (usage) naming the option, what was given and what is expected.

@@ -61,6 +61,10 @@ float decode_carla24(Rgba8 value) {
     return code == carla24_none ? none : float(code / carla24_steps);
 }
 
+float decode_carla_log(uint8_t value) {
+    return value == 255 ? none : float(1000 * std::exp(5.70378 * (value / 255.0 - 1)));
+}
+
 uint16_t encode_hri(float metres, float depth_max) {
     return is_depth(metres, depth_max) ? uint16_t(nearest_code(metres, 65535 / double(depth_max), 0, 65534)) : 65535;
 }

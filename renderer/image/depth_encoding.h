@@ -39,6 +39,11 @@ float decode_mm16(uint16_t value);
 Rgba8 encode_carla24(float metres);
 float decode_carla24(Rgba8 value);
 
+/// Of CARLA's logarithmic depth picture, 8 bits: 1000 m * exp(5.70378 (value / 255 - 1)), steps of 2.3 %. Nothing is
+/// nearer than 3.4 m there, and 255 is none. Source: CARLA, LibCarla/source/carla/image/ColorConverter.h,
+/// LogarithmicLinear, solved for the depth.
+float decode_carla_log(uint8_t value);
+
 /// depth_max: metres that 65535 would stand for, and the limit.
 uint16_t encode_hri(float metres, float depth_max);
 float decode_hri(uint16_t value, float depth_max);

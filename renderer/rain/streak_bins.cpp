@@ -28,8 +28,8 @@ bool find_outline(const Streak& streak, const View& view, Outline& outline) {
 
     const auto tan_squared = [](Vec3d p) { return (p.x * p.x + p.y * p.y) / (p.z * p.z); };
     const double stretch = f * r * std::sqrt(1 + std::max(tan_squared(ends[0]), tan_squared(ends[1])));
-    const auto pixel_x = [&](Vec3d p) { return view.width / 2.0 + p.x * f / p.z; };
-    const auto pixel_y = [&](Vec3d p) { return view.height / 2.0 - p.y * f / p.z; };
+    const auto pixel_x = [&](Vec3d p) { return view.width / 2.0 + view.centre_offset.x + p.x * f / p.z; };
+    const auto pixel_y = [&](Vec3d p) { return view.height / 2.0 + view.centre_offset.y - p.y * f / p.z; };
     const auto radius = [&](Vec3d p) {
         const double blur = std::max(view.blur_radius_pixels(p.z - r), view.blur_radius_pixels(p.z + r));
         // Single precision of the footprint and of the pixel positions that will be compared with it.

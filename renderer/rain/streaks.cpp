@@ -23,8 +23,7 @@ void check_settings(const RainSettings& settings) {
     for (double intensity : settings.intensities_mm_per_h) check_intensity(intensity);
     const double wind = length(settings.wind), width = settings.min_width_pixels, ground = settings.lowest_ground;
     if (settings.wind_travel)
-        require(length(*settings.wind_travel) <= 1e7, "wind_travel", length(*settings.wind_travel),
-                "at most 10000 km");
+        require(length(*settings.wind_travel) <= 1e7, "wind_travel", length(*settings.wind_travel), "at most 10000 km");
     require(wind <= 100, "wind", wind, "at most 100 m/s");
     require(width > 0 && width <= 1000, "min_width_pixels", width, "above 0, at most 1000");
     require(settings.painted_distance >= 0 && settings.painted_distance <= 1000, "painted_distance",
@@ -93,11 +92,16 @@ SearchRegion search_region(const View& view, const RainSettings& settings, const
 
     SearchRegion region;
     region.camera = camera_at_open(view);
-    // As the camera turns, what is at the picture's corner moves farthest.
-    const double edge_x = view.width / (2 * view.focal_pixels), edge_y = view.height / (2 * view.focal_pixels);
-    const double turn = length(view.angular_velocity) * exposure / 2 * std::hypot(1, edge_x, edge_y);
-    const double x = widened(edge_x, turn), y = widened(edge_y, turn);
-    const std::array<Vec3d, 4> side_normals = {Vec3d(1, 0, -x), Vec3d(-1, 0, -x), Vec3d(0, 1, -y), Vec3d(0, -1, -y)};
+    // Slopes of the picture's sides against the axis; as the camera turns, what is at a corner moves farthest.
+    const double half_width = view.width / 2.0, half_height = view.height / 2.0, f = view.focal_pixels;
+    const double turn = length(view.angular_velocity) * exposure / 2 * std::hypot(1, view.width / f, view.height / f);
+    const double right = widened((half_width - view.centre_offset.x) / f, turn);
+    const double left = widened((half_width + view.centre_offset.x) / f, turn);
+    const double top = widened((half_height + view.centre_offset.y) / f, turn);
+    const double bottom = widened((half_height - view.centre_offset.y) / f, turn);
+    const double x = std::max(left, right), y = std::max(top, bottom);
+    const std::array<Vec3d, 4> side_normals = {Vec3d(1, 0, -right), Vec3d(-1, 0, -left), Vec3d(0, 1, -top),
+                                               Vec3d(0, -1, -bottom)};
     double margin = 0;
     for (int i = 0; i < 4; ++i) {
         const Vec3d normal = normalize(view.world_vector_from_view(side_normals[i]));

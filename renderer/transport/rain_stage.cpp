@@ -39,10 +39,13 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
         in_rain.dry = segment.dry;
     }
     if (scratch.hits.empty() && in_rain.empty()) return false;
-    sample_distant(sampler, scratch);
+    if (!scratch.hits.empty() || !settings_.far_light) sample_distant(sampler, scratch);
     if (!in_rain.empty()) {
         find_transmissions(in_rain, scratch);
-        scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
+        if (settings_.far_light && !tracer_->lights().has_local() && !medium_->has_fog())
+            scatter_far_light(segment, in_rain, sampler, scratch);
+        else
+            scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
         if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
     }
     scratch.light.clear();
@@ -131,6 +134,31 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
             return event.trace(counters);
         });
     if (lights.has_local()) scatter_near_lamp(scatterer, segment, in_rain, anchor, sampler, scratch, counters);
+}
+
+/// The same light wherever on the ray: its share is known, 1 - transmission, but for what streaks before it hide. That
+/// is estimated at one distance d with weight w: (1 - T) L - w L + w L (streaks before d let pass).
+void RainStage::scatter_far_light(const CameraSegment& segment, const RainSegment& in_rain,
+                                  const Sampler& pixel_sampler, RainScratch& scratch) const {
+    const Rgb light = settings_.far_light->of_drop(segment.ray.direction);
+    const float* const transmissions = scratch.transmissions.data() + scratch.hits.size() * intensities_.size();
+    auto& known = scratch.scattered[0];
+    scratch.scattered_count = 1;
+    known.distance = 0;
+    known.light.resize(intensities_.size());
+    for (size_t i = 0; i < intensities_.size(); ++i) known.light[i] = light * (1 - transmissions[i]);
+    if (scratch.hits.empty()) return;
+    const Sampler sampler = pixel_sampler.fork(hash_key(medium_domain, uint64_t(Scatterer::drop)));
+    medium_->sample(Scatterer::drop, in_rain, sampler.get_1d(Draw::medium_distance), scratch.scattering);
+    if (scratch.scattering.distance == 0) return;
+    auto& behind = scratch.scattered[1];
+    scratch.scattered_count = 2;
+    behind.distance = scratch.scattering.distance;
+    behind.light.resize(intensities_.size());
+    for (size_t i = 0; i < intensities_.size(); ++i) {
+        behind.light[i] = light * scratch.scattering.weights[i];
+        known.light[i] = known.light[i] - behind.light[i];
+    }
 }
 
 /// Light of one lamp at a point of the segment that is sampled close to the lamp: without it the halo of a lamp is all

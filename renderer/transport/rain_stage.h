@@ -6,6 +6,7 @@
 
 #include "renderer/rain/rain_medium.h"
 #include "renderer/rain/streak_bins.h"
+#include "renderer/transport/far_light.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/scattered_light.h"
 
@@ -33,6 +34,9 @@ struct StreakSettings {
     /// out of its surroundings, so that its noise is seen; the medium is everywhere, and its noise stays far below the
     /// background's.
     double streak_roulette = 0.1, medium_roulette = 0.2;
+    /// Light of the medium in place of traced paths, where there are neither lamps nor fog: quick, but BIASED where
+    /// what is near looks different from a drop than from the camera. Null: traced.
+    std::shared_ptr<const FarLight> far_light = nullptr;
 };
 
 /// From the camera to the first surface.
@@ -85,6 +89,8 @@ private:
     void find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const;
     void scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
                  RainScratch& scratch, Counters& counters) const;
+    void scatter_far_light(const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
+                           RainScratch& scratch) const;
     void scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, Vec3 anchor,
                            const Sampler& sampler, RainScratch& scratch, Counters& counters) const;
     RainSample compose_physical(const RainScratch& scratch, size_t intensity) const;

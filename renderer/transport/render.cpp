@@ -41,8 +41,11 @@ struct Frame {
     const View& view;
     const RenderSettings& settings;
     const PathTracer& tracer;
-    const StreakBins* bins = nullptr;  // null where there is no rain
-    std::optional<RainStage> rain;
+    const PictureSource* picture = nullptr;  // in place of camera paths
+    float dark = 0;                          // luminance of a picture at which noise does not show, cd/m2
+    bool has_medium = false;                 // of fine rain or fog
+    const StreakBins* bins = nullptr;        // null where there is no rain
+    std::optional<RainStage> rain = std::nullopt;
     const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
     const LabelTracer* labels = nullptr;
     const Mattes* mattes = nullptr;
@@ -92,7 +95,8 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
     const Ray ray = scene_ray(frame.view, seen);
     counters.count(Feature::camera_path);
-    const PathResult path = frame.tracer.trace(ray, {}, sampler, 0, counters);
+    const PathResult path =
+        frame.picture ? frame.picture->along(x, y, seen) : frame.tracer.trace(ray, {}, sampler, 0, counters);
     if (!is_finite(path.radiance)) {
         ++counters.invalid_samples;
         return;
@@ -109,7 +113,8 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 
     seen.t_max = path.distance;
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
-    CameraSegment segment{pixel, scratch.candidates, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    CameraSegment segment{pixel, scratch.candidates, ray,
+                          seen,  path.radiance,      std::max(frame.dark, luminance(mean) / float(index + 1))};
     if (frame.shadow)
         segment.dry =
             scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, path.distance, counters);
@@ -133,14 +138,16 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
 void find_centre(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
     const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
     Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
-    RayHit hit;
     CentreDepth& depth = scratch.depth;
     const Ray ray = scene_ray(frame.view, seen);
-    const bool found = frame.tracer.ray_scene().closest_hit(ray, {.at_half = true}, hit, counters);
+    RayHit hit;
+    const bool found = !frame.picture && frame.tracer.ray_scene().closest_hit(ray, {.at_half = true}, hit, counters);
     if (frame.labels)
         frame.labels->write(ray.direction, found ? &hit : nullptr, scratch.values.data() + frame.first_label,
                             scratch.ids.data(), counters);
-    depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
+    depth.distance = found           ? hit.distance
+                     : frame.picture ? frame.picture->along(x, y, seen).distance
+                                     : std::numeric_limits<float>::infinity();
     depth.z = depth.distance * seen.direction.z;
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
     if (!frame.bins) return;
@@ -166,6 +173,14 @@ void write_mattes(const Frame& frame, Scratch& scratch) {
         const auto coverage = float(rain.coverage / samples);
         for (const float value : {coverage > 0 ? frame.mattes->rain_id : 0.0f, coverage, 0.0f, 0.0f}) *values++ = value;
     }
+}
+
+/// A quarter of the picture's mean: light that is computed for the samples that it is worth leaves noise below a level
+/// of 8 bits there.
+float dark_luminance(const PictureSource& picture) {
+    double sum = 0;
+    for (const Rgb c : picture.radiance.pixels) sum += luminance(c);
+    return float(sum / double(picture.radiance.pixels.size()) / 4);
 }
 
 /// Counts finished pixels and passes the news on. Whoever comes while another thread tells it goes on.
@@ -199,7 +214,10 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
             scratch.sums.rain.assign(frame.intensity_count(), {});
             scratch.objects.clear(), scratch.materials.clear();
             if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
-            for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+            if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
+                add(scratch.sums.background, frame.picture->radiance.at(x, y) * float(frame.settings.samples));
+            else
+                for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
             find_centre(frame, x, y, scratch, counters);
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
@@ -281,7 +299,8 @@ private:
 }  // namespace
 
 RenderReport render(const Scene& scene, const Environment& environment, const View& view,
-                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress) {
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress,
+                    const PictureSource* picture) {
     RenderReport report;
     const auto start = Clock::now();
     const RayScene ray_scene(scene);
@@ -289,7 +308,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     std::optional<RainShadow> shadow;
     const bool fine_rain =
         !settings.rain.intensities_mm_per_h.empty() && settings.streaks.composition == Composition::physical;
-    if (fine_rain || settings.wet.any()) shadow.emplace(scene, ray_scene, settings.rain.wind);
+    if (!picture && (fine_rain || settings.wet.any())) shadow.emplace(scene, ray_scene, settings.rain.wind);
     std::optional<WetGround> wet_ground;
     const double time = view.shutter_open + view.exposure_time / 2;
     if (settings.wet.any()) wet_ground.emplace(scene, *shadow, settings.wet, time, settings.rain.seed);
@@ -297,21 +316,24 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
-    Frame frame{view, settings, tracer, nullptr, std::nullopt, nullptr, nullptr, nullptr};
+    Frame frame{view, settings, tracer, picture, picture ? dark_luminance(*picture) : 0};
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
         const Bounds box = bounds(scene);
         rain.lowest_ground = box.empty() ? view.position.y - 100 : box.lower.y;
+        // A picture may show no ground; there is none at the height of its camera.
+        if (picture) rain.lowest_ground = std::min(rain.lowest_ground, view.position.y - 2);
         std::vector<Streak> streaks = find_streaks(view, rain);
         report.sheltered_streaks = streaks.size();
-        remove_sheltered(streaks, view, ray_scene, report.counters);
+        if (!picture) remove_sheltered(streaks, view, ray_scene, report.counters);
         report.sheltered_streaks -= streaks.size();
         report.streaks = streaks.size();
         bins.emplace(std::move(streaks), view);
         frame.bins = &*bins;
         // The paper's pictures have streaks in clear air.
         if (fine_rain || rain.fog_extinction > 0) medium.emplace(view, rain, fine_rain);
-        if (fine_rain) frame.shadow = &*shadow;
+        frame.has_medium = medium.has_value();
+        if (shadow && fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
     const LabelLayers& layers = settings.labels.layers;

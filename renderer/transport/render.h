@@ -5,6 +5,7 @@
 #include "renderer/transport/label_layers.h"
 #include "renderer/transport/layers.h"
 #include "renderer/transport/path.h"
+#include "renderer/transport/picture_source.h"
 #include "renderer/transport/rain_stage.h"
 
 #include <functional>
@@ -36,7 +37,10 @@ using ProgressCallback = std::function<bool(double)>;
 
 /// Renders all layers of frame_channels(). The bands are the same for any number of
 /// threads and any tile size. Throws Error (stopped_early) when progress returns false.
+/// picture: of the view's size, what the camera sees without rain; the scene then lights the drops alone and shelters
+/// none. Null: the scene is what it sees.
 RenderReport render(const Scene& scene, const Environment& environment, const View& view,
-                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress);
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress,
+                    const PictureSource* picture = nullptr);
 
 }  // namespace pluvia

@@ -104,10 +104,8 @@ Shard Shard::parse(const std::string& text) {
 }
 
 std::vector<DatasetItem> shard_items(const std::vector<DatasetItem>& items, Shard shard) {
-    const auto begin = [&](int number) {
-        return items.begin() + long(items.size() * size_t(number) / size_t(shard.count));
-    };
-    return {begin(shard.number - 1), begin(shard.number)};
+    const auto [begin, end] = shard.range(items.size());
+    return {items.begin() + long(begin), items.begin() + long(end)};
 }
 
 }  // namespace pluvia

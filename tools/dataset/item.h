@@ -47,6 +47,10 @@ struct Shard {
 
     /// "1-of-3", for names of files.
     std::string label() const;
+    /// First and past-the-end index of its part of a list: a contiguous run.
+    std::pair<size_t, size_t> range(size_t size) const {
+        return {size * size_t(number - 1) / size_t(count), size * size_t(number) / size_t(count)};
+    }
     /// Throws Error (usage) unless it is I/N with 1 <= I <= N.
     static Shard parse(const std::string& text);
 };

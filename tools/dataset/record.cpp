@@ -42,8 +42,8 @@ const std::string& build_name() {
     return name;
 }
 
-std::optional<Record> read_record(const std::string& dataset, const DatasetItem& item) {
-    std::ifstream file(dataset + "/" + item.record_path(), std::ios::binary);
+std::optional<Record> read_record(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
     if (!file) return std::nullopt;
     try {
         Record record{Json::parse(file)};
@@ -67,8 +67,8 @@ std::string file_fault(const std::string& dataset, const RecordedFile& file) {
     return "";
 }
 
-bool is_done(const std::string& dataset, const DatasetItem& item, const std::string& settings) {
-    const auto record = read_record(dataset, item);
+bool is_done(const std::string& dataset, const std::string& record_path, const std::string& settings) {
+    const auto record = read_record(dataset + "/" + record_path);
     if (!record || record->text("settings_hash") != settings) return false;
     for (const RecordedFile& file : record->files())
         if (!file_fault(dataset, file).empty()) return false;

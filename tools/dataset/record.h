@@ -33,13 +33,19 @@ std::string settings_hash(const DatasetItem& item, const PictureFormat& format, 
 /// Version and fingerprint of the running program: records of two builds may differ in the noise of pictures.
 const std::string& build_name();
 
-/// The record of an item; empty when there is none or it is damaged.
-std::optional<Record> read_record(const std::string& dataset, const DatasetItem& item);
+/// The record in a file; empty when there is none or it is damaged.
+std::optional<Record> read_record(const std::string& path);
+inline std::optional<Record> read_record(const std::string& dataset, const DatasetItem& item) {
+    return read_record(dataset + "/" + item.record_path());
+}
 
 /// What is wrong with a recorded file, or empty: missing, of another size or with other bytes.
 std::string file_fault(const std::string& dataset, const RecordedFile& file);
 
-/// Whether the item is done: its record has these settings and all its files are as recorded.
-bool is_done(const std::string& dataset, const DatasetItem& item, const std::string& settings_hash);
+/// Whether the item of a record is done: the record has these settings and all its files are as recorded.
+bool is_done(const std::string& dataset, const std::string& record_path, const std::string& settings_hash);
+inline bool is_done(const std::string& dataset, const DatasetItem& item, const std::string& settings_hash) {
+    return is_done(dataset, item.record_path(), settings_hash);
+}
 
 }  // namespace pluvia

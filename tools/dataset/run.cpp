@@ -86,7 +86,8 @@ RunResult run_dataset(const DatasetConfig& config, const std::string& dataset, c
                       hashes.at(item.scene), ev100,
                       [&](double share) { return progress.update((double(handled) + share) / double(to_make)); });
             ++result.made;
-            log.add_done(item, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            log.add_done(item.id(), item.scene_name,
+                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         } catch (const Error& e) {
             if (e.code() == ExitCode::stopped_early)
                 throw Error(ExitCode::stopped_early, dataset,
@@ -95,7 +96,7 @@ RunResult run_dataset(const DatasetConfig& config, const std::string& dataset, c
             // Of a scene's file at another time, or of the frame's own values; the next one may be well.
             if (e.code() != ExitCode::some_failed && e.code() != ExitCode::input) throw;
             ++result.failed;
-            log.add_failed(item, e.what());
+            log.add_failed(item.id(), item.scene_name, e.what());
             std::cerr << "pluvia: error: " << item.id() << ": " << e.what() << "\n";
         }
         std::filesystem::remove_all(scratch);

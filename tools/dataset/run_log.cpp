@@ -19,12 +19,12 @@ RunLog::RunLog(const std::string& dataset, Shard shard)
     make_folder_of(path_);
 }
 
-void RunLog::add_done(const DatasetItem& item, double seconds) {
-    add(json_text(Json{{"id", item.id()}, {"scene", item.scene_name}, {"seconds", seconds}}));
+void RunLog::add_done(const std::string& id, const std::string& scene, double seconds) {
+    add(json_text(Json{{"id", id}, {"scene", scene}, {"seconds", seconds}}));
 }
 
-void RunLog::add_failed(const DatasetItem& item, const std::string& reason) {
-    add(json_text(Json{{"id", item.id()}, {"scene", item.scene_name}, {"failed", reason}}));
+void RunLog::add_failed(const std::string& id, const std::string& scene, const std::string& reason) {
+    add(json_text(Json{{"id", id}, {"scene", scene}, {"failed", reason}}));
 }
 
 void RunLog::add(const std::string& line) {

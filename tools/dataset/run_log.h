@@ -15,8 +15,9 @@ public:
     /// Throws Error (render_failed) when the file cannot be opened.
     RunLog(const std::string& dataset, Shard shard);
 
-    void add_done(const DatasetItem& item, double seconds);
-    void add_failed(const DatasetItem& item, const std::string& reason);
+    /// scene: what items are counted under.
+    void add_done(const std::string& id, const std::string& scene, double seconds);
+    void add_failed(const std::string& id, const std::string& scene, const std::string& reason);
 
 private:
     void add(const std::string& line);

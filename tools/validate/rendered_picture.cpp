@@ -25,7 +25,7 @@ bool operator==(const Picture& a, const Picture& b) {
 }
 
 Picture render_picture(const Scene& scene, const Environment& environment, const View& view,
-                       const RenderSettings& settings) {
+                       const RenderSettings& settings, const PictureSource* source) {
     Picture picture;
     picture.width = view.width, picture.height = view.height;
     const FrameChannels channels = frame_channels(settings.rain.intensities_mm_per_h, settings.labels.layers);
@@ -37,7 +37,7 @@ Picture render_picture(const Scene& scene, const Environment& environment, const
                 append(picture.planes[channels.values[c]], band.planes[c]);
             for (size_t c = 0; c < channels.ids.size(); ++c) append(picture.ids[channels.ids[c]], band.ids[c]);
         },
-        [](double) { return true; });
+        [](double) { return true; }, source);
     return picture;
 }
 

@@ -24,7 +24,7 @@ public:
 };
 
 Picture render_picture(const Scene& scene, const Environment& environment, const View& view,
-                       const RenderSettings& settings);
+                       const RenderSettings& settings, const PictureSource* picture = nullptr);
 
 /// Mean and error of one channel averaged over the picture, from independent seeds of samples and drops.
 struct Estimate {
