@@ -29,6 +29,17 @@ std::string without_extension(const std::string& path) {
     return fs::path(path).replace_extension().string();
 }
 
+/// What frame.json's cameras are to be moved by, so that drops are those of the render.
+Vec3d scene_origin(const nlohmann::ordered_json& calibration, const std::string& where) {
+    try {
+        if (!calibration.contains("scene") || !calibration["scene"].contains("origin")) return {};
+        const auto& v = calibration["scene"]["origin"];
+        return {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
+    } catch (const nlohmann::ordered_json::exception&) {
+        throw input_error(where, "\"scene\" has an \"origin\" that is not three numbers");
+    }
+}
+
 /// Items of pictures and depth by patterns; the camera of those that a calibration names.
 std::vector<AugmentItem> pattern_items(const AugmentOptions& o, const DepthFormat& format) {
     const auto stars_of = [](const std::string& pattern) { return std::ranges::count(pattern, '*'); };
@@ -36,11 +47,7 @@ std::vector<AugmentItem> pattern_items(const AugmentOptions& o, const DepthForma
         fail_option("depth", '"' + o.depth + '"', fmt::format("as many * as in \"{}\"", o.images));
     nlohmann::ordered_json calibration;
     if (!o.calibration.empty()) calibration = read_json(o.calibration);
-    Vec3d origin;
-    if (calibration.contains("scene") && calibration["scene"].contains("origin")) {
-        const auto& v = calibration["scene"]["origin"];
-        origin = {v.at(0).get<double>(), v.at(1).get<double>(), v.at(2).get<double>()};
-    }
+    const Vec3d origin = scene_origin(calibration, o.calibration);
     std::vector<AugmentItem> items;
     for (const FoundFile& file : find_matching(o.input, o.images)) {
         AugmentItem item;
