@@ -76,7 +76,7 @@ View picture_view(const PictureCamera& camera, int width, int height, const Augm
     settings.mid_exposure = camera.mid_exposure;
     if (camera.exposure_time) settings.exposure_time = *camera.exposure_time;
     settings.velocity =
-        options.render.camera_velocity.empty() ? camera.velocity : camera.world_from_camera.vector(settings.velocity);
+        options.render.camera_velocity.empty() ? camera.velocity : camera.world_from_camera.vector(*settings.velocity);
     Camera placed;
     placed.scene_from_camera = camera.world_from_camera;
     View view = make_view(placed, settings);
