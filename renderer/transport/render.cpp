@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,7 @@ struct Frame {
     const StreakBins* bins = nullptr;  // null where there is no rain
     std::optional<RainStage> rain;
     const RainShadow* shadow = nullptr;  // of the medium of fine rain; null where there is none
+    Bounds far_scene = {};               // around the scene where the camera is far from it, else empty
 
     size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
 };
@@ -43,9 +45,44 @@ Ray view_ray(const View& view, Vec2 pixel, Vec2 lens) {
     return {origin, normalize(through_centre - origin / float(view.focus_distance))};
 }
 
-Ray scene_ray(const View& view, const Ray& ray) {
-    return {Vec3(view.position + view.world_vector_from_view(Vec3d(ray.origin))),
-            Vec3(view.world_vector_from_view(Vec3d(ray.direction)))};
+/// The scene's box with a margin, where the camera is farther from it than it is wide; else an empty one.
+Bounds far_bounds(const Scene& scene, const View& view) {
+    Bounds box = bounds(scene);
+    if (box.empty()) return {};
+    const double width = length(box.upper - box.lower);
+    const Vec3d outside = max(max(box.lower - view.position, view.position - box.upper), Vec3d());
+    if (length(outside) <= width) return {};
+    const Vec3d margin(0.01 * width, 0.01 * width, 0.01 * width);
+    return {box.lower - margin, box.upper + margin};
+}
+
+/// Metres from the origin to where the ray enters the box; infinite where it does not.
+double way_to(const Bounds& box, Vec3d origin, Vec3d direction) {
+    double enter = 0, leave = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double a = (box.lower[axis] - origin[axis]) / direction[axis],
+                     b = (box.upper[axis] - origin[axis]) / direction[axis];
+        enter = std::max(enter, std::min(a, b)), leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+}
+
+struct SceneRay {
+    Ray ray;            // scene coordinates, from the lens
+    Ray near;           // the same from where it may meet something
+    double before = 0;  // metres between their origins
+};
+
+SceneRay scene_ray(const Frame& frame, const Ray& ray) {
+    const Vec3d origin = frame.view.position + frame.view.world_vector_from_view(Vec3d(ray.origin)),
+                direction = frame.view.world_vector_from_view(Vec3d(ray.direction));
+    SceneRay result{{Vec3(origin), Vec3(direction)}, {Vec3(origin), Vec3(direction)}};
+    if (frame.far_scene.empty()) return result;
+    // In double: seen from 1000 km, a ray in single precision passes 6 cm beside where it should.
+    const double way = way_to(frame.far_scene, origin, direction);
+    if (std::isinf(way)) return result;
+    result.near.origin = Vec3(origin + direction * way), result.before = way;
+    return result;
 }
 
 void add(std::array<double, 3>& sum, Rgb value) {
@@ -69,9 +106,9 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     const Vec2 pixel{float(x) + u.x, float(y) + u.y};
     if (frame.view.lens_radius > 0) counters.count(Feature::lens);
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
-    const Ray ray = scene_ray(frame.view, seen);
+    const SceneRay ray = scene_ray(frame, seen);
     counters.count(Feature::camera_path);
-    const PathResult path = frame.tracer.trace(ray, {}, sampler, 0, counters);
+    const PathResult path = frame.tracer.trace(ray.near, {}, sampler, 0, counters);
     if (!is_finite(path.radiance)) {
         ++counters.invalid_samples;
         return;
@@ -80,12 +117,12 @@ void add_sample(const Frame& frame, int x, int y, int index, Scratch& scratch, C
     add(sums.background, path.radiance);
     if (!frame.rain) return;
 
-    seen.t_max = path.distance;
+    seen.t_max = float(ray.before + path.distance);
     const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
-    CameraSegment segment{pixel, scratch.candidates, ray, seen, path.radiance, luminance(mean) / float(index + 1)};
+    CameraSegment segment{pixel, scratch.candidates, ray.ray, seen, path.radiance, luminance(mean) / float(index + 1)};
     if (frame.shadow)
         segment.dry =
-            scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, path.distance, counters);
+            scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
     for (size_t i = 0; i < scratch.rain.size(); ++i) {
         const RainSample& rain = scratch.rain[i];
@@ -107,9 +144,9 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
     Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
     RayHit hit;
     CentreDepth& depth = scratch.depth;
-    const bool found =
-        frame.tracer.ray_scene().closest_hit(scene_ray(frame.view, seen), {.at_half = true}, hit, counters);
-    depth.distance = found ? hit.distance : std::numeric_limits<float>::infinity();
+    const SceneRay ray = scene_ray(frame, seen);
+    const bool found = frame.tracer.ray_scene().closest_hit(ray.near, {.at_half = true}, hit, counters);
+    depth.distance = found ? float(ray.before + hit.distance) : std::numeric_limits<float>::infinity();
     depth.z = depth.distance * seen.direction.z;
     depth.rainy_z.assign(frame.intensity_count(), depth.z);
     if (!frame.bins) return;
@@ -123,6 +160,31 @@ void find_depth(const Frame& frame, int x, int y, Scratch& scratch, Counters& co
             if (streak.threshold_mm_per_h <= frame.settings.rain.intensities_mm_per_h[i])
                 depth.rainy_z[i] = std::min(depth.rainy_z[i], z);
     }
+}
+
+/// Sums of all samples of a pixel.
+void add_samples(const Frame& frame, int x, int y, Scratch& scratch, Counters& counters) {
+    scratch.sums.background = {};
+    scratch.sums.rain.assign(frame.intensity_count(), {});
+    if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
+    for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+}
+
+std::vector<float> render_pixels(const Frame& frame, std::span<const int64_t> pixels) {
+    const size_t channels = layer_channels(frame.settings.rain.intensities_mm_per_h).size();
+    std::vector<float> values(pixels.size() * channels);
+    constexpr int block = 16;
+    parallel_for(int((pixels.size() + block - 1) / block), [&](int b) {
+        Scratch scratch;
+        Counters counters;
+        scratch.rain.resize(frame.intensity_count());
+        scratch.depth = {0, 0, std::vector<float>(frame.intensity_count(), 0.0f)};
+        for (size_t i = size_t(b) * block; i < std::min(pixels.size(), size_t(b + 1) * block); ++i) {
+            add_samples(frame, int(pixels[i] % frame.view.width), int(pixels[i] / frame.view.width), scratch, counters);
+            develop(scratch.sums, scratch.depth, frame.settings.samples, &values[i * channels]);
+        }
+    });
+    return values;
 }
 
 /// Counts finished pixels and passes the news on. Whoever comes while another thread tells it goes on.
@@ -151,10 +213,7 @@ void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelPr
     scratch.values.resize(band.planes.size());
     for (int y = band.y; y < band.y + band.rows; ++y)
         for (int x = x_begin; x < x_end; ++x) {
-            scratch.sums.background = {};
-            scratch.sums.rain.assign(frame.intensity_count(), {});
-            if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
-            for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+            add_samples(frame, x, y, scratch, counters);
             find_depth(frame, x, y, scratch, counters);
             develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
@@ -232,9 +291,10 @@ private:
 
 }  // namespace
 
-RenderReport render(const Scene& scene, const Environment& environment, const View& view,
-                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress) {
+RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& given,
+                    const BandSink& sink, const ProgressCallback& progress) {
     RenderReport report;
+    RenderSettings settings = given;  // but for the number of samples
     const auto start = Clock::now();
     const RayScene ray_scene(scene);
     const Lights lights(scene, environment);
@@ -250,6 +310,7 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
     Frame frame{view, settings, tracer, nullptr, std::nullopt};
+    frame.far_scene = far_bounds(scene, view);
     if (!settings.rain.intensities_mm_per_h.empty()) {
         RainSettings rain = settings.rain;
         const Bounds box = bounds(scene);
@@ -266,6 +327,14 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
         if (fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
     }
+    if (settings.choose_samples)
+        settings.samples = settings.choose_samples([&](std::span<const int64_t> pixels, int samples, uint64_t seed) {
+            settings.samples = samples, settings.seed = seed;
+            std::vector<float> values = render_pixels(frame, pixels);
+            settings.seed = given.seed;
+            return values;
+        });
+    report.samples = settings.samples;
     report.build_seconds = seconds_since(start);
 
     BandQueue queue(view, settings.tile_size, layer_channels(settings.rain.intensities_mm_per_h).size(), sink);
