@@ -4,11 +4,14 @@
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/lamps.h"
 #include "shaders/streak_files.h"
+#include "tools/sample_choice.h"
 #include "tools/streak_cache.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iostream>
+#include <optional>
 
 namespace pluvia {
 namespace {
@@ -53,6 +56,7 @@ FrameSettings::FrameSettings(const RenderOptions& options)
 
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
                            const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
+    const auto start = std::chrono::steady_clock::now();
     const Camera camera = find_camera(frame.scene, options.camera);
     CameraSettings camera_options = settings.camera;
     if (options.camera_velocity.empty()) camera_options.velocity = velocity_of(frame, camera);
@@ -64,16 +68,30 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
                           to_json(options), settings.render.rain.intensities_mm_per_h},
                          0,
                          {}};
-    FrameWriter writer(exr, result.header);
+    std::optional<FrameWriter> writer;
+    const SampleGoal goal{options.target_error, options.time_limit};
+    RenderSettings render_settings = settings.render;
+    if (goal.any())
+        render_settings.choose_samples = [&](const PixelRenderer& pilot) {
+            const View& view = result.header.view;
+            const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
+            const int samples = choose_samples(goal, pilot, result.header.intensities,
+                                               int64_t(view.width) * view.height, options.seed, gone.count());
+            result.header.options["spp"] = samples;
+            writer.emplace(exr, result.header);
+            return samples;
+        };
+    else
+        writer.emplace(exr, result.header);
     result.report = render(
-        scene, settings.environment, result.header.view, settings.render,
+        scene, settings.environment, result.header.view, render_settings,
         [&](const Band& band) {
             if (look) look(band);
-            writer.write(band);
+            writer->write(band);
         },
         progress);
-    result.ev100 = settings.ev100 ? *settings.ev100 : writer.background_luminance().auto_ev100();
-    writer.finish(result.ev100);
+    result.ev100 = settings.ev100 ? *settings.ev100 : writer->background_luminance().auto_ev100();
+    writer->finish(result.ev100);
     return result;
 }
 
