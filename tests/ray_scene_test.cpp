@@ -121,7 +121,8 @@ TEST_CASE("no point of a sphere is shaded by the surface it lies on, also a kilo
             ++tested;
             // The outside of a convex body sees no other part of it.
             const Vec3 away = normalize(s.geometric_normal + sample_sphere(uniform_2d(22, i, 0)) * 0.9f);
-            shaded += rays.occluded({offset_from_surface(s.position, s.geometric_normal), away}, {}, counters);
+            shaded +=
+                rays.occluded({offset_from_surface(s.position, s.geometric_normal, s.extent), away}, {}, counters);
         }
         CAPTURE(far);
         CHECK(tested > 40000);

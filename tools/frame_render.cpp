@@ -5,11 +5,14 @@
 #include "renderer/scene/lamps.h"
 #include "shaders/streak_files.h"
 #include "tools/label_rules.h"
+#include "tools/sample_choice.h"
 #include "tools/streak_cache.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iostream>
+#include <optional>
 
 namespace pluvia {
 FrameScene load_frame_scene(const RenderOptions& options) {
@@ -63,6 +66,7 @@ std::shared_ptr<const StreakTextures> streak_textures(const RenderOptions& optio
 
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
                            const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
+    const auto start = std::chrono::steady_clock::now();
     const Camera camera = find_camera(frame.scene, options.camera);
     Scene& scene = frame.scene;
     if (lamp_count(scene) > 0 && !lamps_are_on(options.light, settings.environment)) switch_off_lamps(scene);
@@ -81,17 +85,30 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
     result.header.label_entries = label_header(scene, labels, result.header.intensities);
     if (labels.next) result.header.next = labels.next->view, result.header.previous = labels.previous->view;
     SeenObjects seen;
-    FrameWriter writer(exr, result.header);
+    std::optional<FrameWriter> writer;
+    const SampleGoal goal{options.target_error, options.time_limit};
+    if (goal.any())
+        render_settings.choose_samples = [&](const PixelRenderer& pilot) {
+            const View& view = result.header.view;
+            const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
+            const int samples = choose_samples(goal, pilot, result.header.intensities,
+                                               int64_t(view.width) * view.height, options.seed, gone.count());
+            result.header.options["spp"] = samples;
+            writer.emplace(exr, result.header);
+            return samples;
+        };
+    else
+        writer.emplace(exr, result.header);
     result.report = render(
         scene, settings.environment, result.header.view, render_settings,
         [&](const Band& band) {
             if (look) look(band);
             if (labels.layers.instance) seen.look(band.ids.back(), band.y, band.width);
-            writer.write(band);
+            writer->write(band);
         },
         progress);
-    result.ev100 = settings.ev100 ? *settings.ev100 : writer.background_luminance().auto_ev100();
-    writer.finish(result.ev100);
+    result.ev100 = settings.ev100 ? *settings.ev100 : writer->background_luminance().auto_ev100();
+    writer->finish(result.ev100);
     if (labels.layers.instance) {
         const View& view = result.header.view;
         const std::vector<ObjectExtent> extents =

@@ -19,8 +19,11 @@ struct Ray {
 /// Single precision ends here: a hit point is known to some 1e-7 of its distance from the scene's centre, so the
 /// step is counted in representable numbers where coordinates are large and in metres near zero.
 /// Source: Wächter and Binder 2019, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems 6.
-inline Vec3 offset_from_surface(Vec3 p, Vec3 n) {
-    constexpr float near_origin = 1.0f / 32, float_scale = 1.0f / 65536, int_scale = 256;
+/// extent: metres to the farthest corner of the triangle. Where a ray meets a triangle is found from the way to its
+/// corners, whose rounding moves the triangle's plane: on ground of one piece and some kilometres by more than a step.
+inline Vec3 offset_from_surface(Vec3 p, Vec3 n, float extent) {
+    constexpr float near_origin = 1.0f / 32, float_scale = 1.0f / 65536, int_scale = 256, plane_rounding = 0x1p-21f;
+    if (extent * plane_rounding > float_scale) p += n * (extent * plane_rounding);
     const auto step = [&](float x, float nx) {
         if (std::abs(x) < near_origin) return x + float_scale * nx;
         const auto ulps = int32_t(int_scale * nx);

@@ -4,6 +4,9 @@
 #include "renderer/scene/surface_normal.h"
 #include "renderer/scene/triangle.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pluvia {
 namespace {
 
@@ -35,6 +38,8 @@ Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 dir
     // In double: the transform may hold large translations that cancel.
     s.position = Vec3(scene_from_object.point(Vec3d(p0) * t.b0 + Vec3d(p1) * t.b1 + Vec3d(p2) * t.b2));
     s.geometric_normal = Vec3(normalize(scene_from_object.normal(cross(Vec3d(p1 - p0), Vec3d(p2 - p0)))));
+    const auto squared_length = [&](Vec3 edge) { return length_squared(scene_from_object.vector(Vec3d(edge))); };
+    s.extent = float(std::sqrt(std::max({squared_length(p1 - p0), squared_length(p2 - p0), squared_length(p2 - p1)})));
     const bool mirrored = scene_from_object.determinant() < 0;  // then the winding of the front is reversed
     s.from_front = (dot(s.geometric_normal, direction) < 0) != mirrored;
     if (dot(s.geometric_normal, direction) > 0) s.geometric_normal = -s.geometric_normal;

@@ -17,6 +17,7 @@ struct Surface {
     Vec3 position;
     Vec3 geometric_normal;   // unit, on the side that the ray came from
     Vec3 shading_normal;     // unit, interpolated and normal-mapped, turned so that the ray's side sees it
+    float extent = 0;        // metres that the triangle's corners are away at most
     Rgb emission;            // cd/m2 towards the ray
     Bsdf bsdf;               // in the frame of ShadingBasis(shading_normal); glass as if air were around it
     bool from_front = true;  // whether the triangle's front is seen

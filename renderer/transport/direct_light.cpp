@@ -65,7 +65,8 @@ private:
 Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, Draw draw, Counters& counters) {
     if (!pick.light()) return Rgb(0);
     const Vec3 n = v.surface.geometric_normal;
-    const Vec3 from = offset_from_surface(v.surface.position, is_above(v.surface, pick.light()->wi) ? n : -n);
+    const Vec3 from =
+        offset_from_surface(v.surface.position, is_above(v.surface, pick.light()->wi) ? n : -n, v.surface.extent);
     const OpacityTest opacity{v.sampler.key(draw, uint32_t(v.bounce))};
     // Aimed anew from where the ray starts: a ray that keeps its direction while its origin moves off the surface meets
     // a triangle seen edge-on so much earlier that the triangle would shade itself.
@@ -85,7 +86,7 @@ Rgb through_panes(const RayScene& ray_scene, Ray ray, OpacityTest opacity, Count
     while (!is_black(left) && ray_scene.closest_hit(ray, opacity, hit, counters)) {
         const Surface surface = evaluate_surface(ray_scene.scene(), hit.point, ray.direction, 0, counters);
         left *= straight_transmittance(ray_scene.scene(), hit.point, surface, ray.direction, counters);
-        ray = {offset_from_surface(surface.position, -surface.geometric_normal), ray.direction,
+        ray = {offset_from_surface(surface.position, -surface.geometric_normal, surface.extent), ray.direction,
                ray.t_max - hit.distance};
     }
     return left;

@@ -8,7 +8,9 @@ namespace {
 
 // Paths live at least this long, then survive with the probability of their throughput.
 constexpr int first_roulette_bounce = 2;
-constexpr float max_survival = 0.95f;  // below 1, so that a closed white room cannot hold a path for ever
+// Below 1, so that a closed white room cannot hold a path for ever. Where albedos are a, the square of what a path
+// gathers has a finite mean only while a^2 < max_survival: 0.95 would lose rooms whiter than 0.975 in noise.
+constexpr float max_survival = 0.999f;
 
 }  // namespace
 
@@ -78,7 +80,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
                 media.leave(surface.volume);
         }
         const Vec3 side = next->transmitted ? -surface.geometric_normal : surface.geometric_normal;
-        ray = {offset_from_surface(surface.position, side), wi};
+        ray = {offset_from_surface(surface.position, side, surface.extent), wi};
     }
 }
 

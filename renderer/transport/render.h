@@ -8,12 +8,20 @@
 #include "renderer/transport/picture_source.h"
 #include "renderer/transport/rain_stage.h"
 
+#include <cstdint>
 #include <functional>
+#include <span>
 
 namespace pluvia {
 
+/// Renders single pixels, y * width + x, with these samples each of that seed: the values of layer_channels(), one
+/// pixel after the other, but for depth, which is 0. Uses all threads; called by one.
+using PixelRenderer = std::function<std::vector<float>(std::span<const int64_t> pixels, int samples, uint64_t seed)>;
+
 struct RenderSettings {
     int samples = 64;  // camera samples per pixel
+    /// Where given, asked for the number of samples in place of the above when all is ready and before the first band.
+    std::function<int(const PixelRenderer&)> choose_samples = {};
     uint64_t seed = 0;
     PathSettings path = {};
     RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
@@ -24,6 +32,7 @@ struct RenderSettings {
 };
 
 struct RenderReport {
+    int samples = 0;  // per pixel
     Counters counters;
     size_t streaks = 0;            // in view, after shelter
     size_t sheltered_streaks = 0;  // removed because a roof is above them

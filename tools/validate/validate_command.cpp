@@ -10,6 +10,7 @@ void add_validate_command(CLI::App& app) {
     validate->footer("Example:\n  pluvia validate compare a/frame.exr b/frame.exr");
     add_compare_command(*validate);
     add_closed_forms_command(*validate);
+    add_extremes_command(*validate);
 }
 
 }  // namespace pluvia

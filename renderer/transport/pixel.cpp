@@ -1,0 +1,116 @@
+#include "renderer/transport/pixel.h"
+
+#include "renderer/core/sampling.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pluvia {
+namespace {
+
+void add(std::array<double, 3>& sum, Rgb value) {
+    sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
+}
+
+void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scratch, Counters& counters) {
+    const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
+    const Vec2 u = sampler.get_2d(Draw::pixel);
+    const Vec2 pixel{float(x) + u.x, float(y) + u.y};
+    if (frame.view.lens_radius > 0) counters.count(Feature::lens);
+    Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
+    const SceneRay ray = scene_ray(frame.view, frame.far_scene, seen);
+    counters.count(Feature::camera_path);
+    const PathResult path =
+        frame.picture ? frame.picture->along(x, y, seen) : frame.tracer.trace(ray.near, {}, sampler, 0, counters);
+    if (!is_finite(path.radiance)) {
+        ++counters.invalid_samples;
+        return;
+    }
+    if (frame.mattes && path.first.instance >= 0) {
+        const Instance& instance = frame.mattes->scene.instances[path.first.instance];
+        counters.count(Feature::matte);
+        scratch.objects.add(frame.mattes->objects.object_of_instance[path.first.instance]);
+        scratch.materials.add(frame.mattes->scene.meshes[instance.mesh].material);
+    }
+    PixelSums& sums = scratch.sums;
+    add(sums.background, path.radiance);
+    if (!frame.rain) return;
+
+    seen.t_max = float(ray.before + path.distance);
+    const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
+    CameraSegment segment{pixel, scratch.candidates, ray.ray,
+                          seen,  path.radiance,      std::max(frame.dark, luminance(mean) / float(index + 1))};
+    if (frame.shadow)
+        segment.dry =
+            scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);
+    if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
+    for (size_t i = 0; i < scratch.rain.size(); ++i) {
+        const RainSample& rain = scratch.rain[i];
+        if (!is_finite(rain.light + rain.inscatter)) {
+            ++counters.invalid_samples;
+            continue;
+        }
+        add(sums.rain[i].removed, path.radiance * (1 - rain.transmission));
+        add(sums.rain[i].light, rain.light);
+        add(sums.rain[i].inscatter, rain.inscatter);
+        sums.rain[i].coverage += rain.coverage;
+        sums.rain[i].wide_coverage += rain.wide_coverage;
+        sums.rain[i].blocked += 1 - rain.transmission;
+    }
+}
+
+}  // namespace
+
+void add_samples(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {
+    scratch.sums.background = {};
+    scratch.sums.rain.assign(frame.intensity_count(), {});
+    scratch.objects.clear(), scratch.materials.clear();
+    if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
+    if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
+        add(scratch.sums.background, frame.picture->radiance.at(x, y) * float(frame.settings.samples));
+    else
+        for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+}
+
+void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {
+    const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
+    Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
+    CentreDepth& depth = scratch.depth;
+    const SceneRay ray = scene_ray(frame.view, frame.far_scene, seen);
+    RayHit hit;
+    const bool found =
+        !frame.picture && frame.tracer.ray_scene().closest_hit(ray.near, {.at_half = true}, hit, counters);
+    if (frame.labels)
+        frame.labels->write(ray.ray.direction, found ? &hit : nullptr, scratch.values.data() + frame.first_label,
+                            scratch.ids.data(), counters);
+    depth.distance = found           ? float(ray.before + hit.distance)
+                     : frame.picture ? frame.picture->along(x, y, seen).distance
+                                     : std::numeric_limits<float>::infinity();
+    depth.z = depth.distance * seen.direction.z;
+    depth.rainy_z.assign(frame.intensity_count(), depth.z);
+    if (!frame.bins) return;
+    seen.t_max = depth.distance;
+    find_hits(*frame.bins, scratch.candidates, centre, seen, scratch.streaks.hits);
+    for (const StreakHit& h : scratch.streaks.hits) {
+        const Streak& streak = frame.bins->streaks()[h.streak];
+        if (h.width < 1) continue;
+        const float z = h.covered.distance * seen.direction.z;
+        for (size_t i = 0; i < depth.rainy_z.size(); ++i)
+            if (streak.threshold_mm_per_h <= frame.settings.rain.intensities_mm_per_h[i])
+                depth.rainy_z[i] = std::min(depth.rainy_z[i], z);
+    }
+}
+
+void write_mattes(const Frame& frame, PixelScratch& scratch) {
+    const int samples = frame.settings.samples;
+    float* values = scratch.values.data() + frame.first_matte;
+    scratch.objects.write(frame.mattes->object_ids, samples, values);
+    scratch.materials.write(frame.mattes->material_ids, samples, values += cryptomatte_channels);
+    values += cryptomatte_channels;
+    for (const RainSums& rain : scratch.sums.rain) {
+        const auto coverage = float(rain.coverage / samples);
+        for (const float value : {coverage > 0 ? frame.mattes->rain_id : 0.0f, coverage, 0.0f, 0.0f}) *values++ = value;
+    }
+}
+
+}  // namespace pluvia
