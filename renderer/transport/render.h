@@ -8,6 +8,7 @@
 #include "renderer/transport/rain_stage.h"
 
 #include <functional>
+#include <optional>
 
 namespace pluvia {
 
@@ -18,6 +19,8 @@ struct RenderSettings {
     RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
     StreakSettings streaks = {};
     WetSettings wet = {};
+    std::optional<Vec3d> wet_wind =
+        {};  // m/s, of the rain that made the ground wet; empty: that of the rain that falls
     LabelSettings labels = {};
     int tile_size = 32;  // pixels; changes no byte of the picture
 };
