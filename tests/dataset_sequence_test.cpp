@@ -61,6 +61,13 @@ TEST_CASE("frames of a sequence share their rain, and each has its own noise, in
     // 0.1 s at 2 m/s, then 0.1 s at 3 m/s on average; along z 0.1 s at -1 m/s.
     CHECK(items[2].options.wind_travel[0] == doctest::Approx(0.5));
     CHECK(items[2].options.wind_travel[2] == doctest::Approx(-0.1));
+    CHECK(items[2].options.wet_wind.empty());
+    const Sequences wet("wetness: 1\n");
+    for (const DatasetItem& item : dataset_items(wet.dataset.config())) {
+        REQUIRE(item.options.wet_wind.size() == 3);
+        CHECK(item.options.wet_wind[0] == doctest::Approx(10.0 / 3));
+        CHECK(item.options.wet_wind[2] == doctest::Approx(-4.0 / 3));
+    }
     CHECK(items[2].rainy_path(80, "rain_mask", "png") == "rainy/court/eye/over_time/rain_mask/frame_0002.png");
 }
 

@@ -218,4 +218,20 @@ TEST_CASE("a file keeps which materials stay dry") {
     CHECK(read.materials[2].lamp);
 }
 
+TEST_CASE("what is wet and what is dry follows the wind that made it so, where one is given") {
+    // A wall shelters the ground behind it from rain that comes slanting over it.
+    Scene scene = make_plane(lambert(Rgb(0.3f)));
+    add_quad(scene, {0, 0, -50}, {0, 0, 100}, {0, 6, 0}, lambert(Rgb(0.3f)));
+    const View view = look_at({4, 3, 6}, {1, 0, 0}, 32, 16, 20);
+    const auto shot = [&](Vec3d wind, std::optional<Vec3d> wet_wind) {
+        RenderSettings settings{.samples = 4, .wet = {.wetness = 1}, .wet_wind = wet_wind};
+        settings.rain.wind = wind;
+        return render_picture(scene, Environment::uniform(Rgb(1)), view, settings);
+    };
+    const Picture west = shot({20, 0, 0}, {}), calm = shot({0, 0, 0}, {});
+    CHECK(!(west == calm));
+    CHECK(shot({20, 0, 0}, Vec3d(0, 0, 0)) == calm);
+    CHECK(shot({0, 0, 0}, Vec3d(20, 0, 0)) == west);
+}
+
 }  // namespace pluvia

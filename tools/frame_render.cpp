@@ -28,14 +28,13 @@ FrameScene load_frame_scene(const RenderOptions& options) {
     result.labelled_paths = std::move(contents.labelled_paths);
     if (!result.is_animated || !label_choice(options.layers).layers.flow) return result;
     const auto at = [&](int step) {
-        GltfSettings then{camera.mid_exposure + step / options.fps, camera.exposure_time, options.variant,
-                          options.allow_outside, false};
+        const GltfSettings then{camera.mid_exposure + step / options.fps, camera.exposure_time, options.variant,
+                                options.allow_outside, false};
         auto other = std::make_shared<Scene>(load_gltf(options.scene, then));
         if (same_places(result.scene, *other)) {
             other->meshes.clear(), other->instances.clear();  // only cameras move: the frame's own will do
         } else {
-            then.pictures = true;  // masks of alpha decide over what is hidden
-            *other = load_gltf(options.scene, then);
+            other->images = result.scene.images;  // the same file's; masks of alpha decide over what is hidden
         }
         return other;
     };

@@ -114,6 +114,12 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command.add_option("--puddles", o.puddles, "share of level ground that water stands on, 0 to 1")
         ->capture_default_str()
         ->group(wet);
+    command
+        .add_option("--wet-wind", o.wet_wind,
+                    "X,Y,Z in m/s while the ground got wet, which decides what is sheltered; default: --wind")
+        ->delimiter(',')
+        ->expected(3)
+        ->group(wet);
     command.add_option("--ripples", o.ripples, "mm/h of the rain whose drops draw rings on the puddles, 0 to 1000")
         ->capture_default_str()
         ->group(wet);
@@ -167,6 +173,7 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["shutter"] = o.shutter;
     if (!o.camera_velocity.empty()) j["camera-velocity"] = o.camera_velocity;
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
+    if (!o.wet_wind.empty()) j["wet-wind"] = o.wet_wind;
     if (o.rain_seed) j["rain-seed"] = *o.rain_seed;
     if (!o.wind_travel.empty()) j["wind-travel"] = o.wind_travel;
     j["rain"] = o.rain, j["wind"] = o.wind, j["composition"] = o.composition;

@@ -36,6 +36,7 @@ struct RenderOptions {
     double fog_beta = 0;
     std::vector<double> camera_velocity;  // empty = as the scene has it
     double wetness = 0, puddles = 0, ripples = 0;
+    std::vector<double> wet_wind;  // empty: wind
     LightOptions light;
     std::optional<double> focal_length, f_number, focus;  // mm, -, m
     double shutter = 1.0 / 60;

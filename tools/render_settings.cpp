@@ -67,6 +67,7 @@ RenderSettings render_settings(const RenderOptions& o) {
     s.rain.intensities_mm_per_h = o.rain;
     s.rain.wind = vector_from(o.wind, "wind");
     s.rain.seed = o.rain_seed.value_or(o.seed);
+    if (!o.wet_wind.empty()) s.wet_wind = vector_from(o.wet_wind, "wet-wind");
     if (!o.wind_travel.empty()) {
         if (o.wind_travel.size() != 3)
             fail_option("wind-travel", fmt::format("{} numbers", o.wind_travel.size()), "three, X,Y,Z");

@@ -73,9 +73,12 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     const bool fine_rain =
         !settings.rain.intensities_mm_per_h.empty() && settings.streaks.composition == Composition::physical;
     if (!picture && (fine_rain || settings.wet.any())) shadow.emplace(scene, ray_scene, settings.rain.wind);
+    std::optional<RainShadow> wet_shadow;
+    if (settings.wet.any() && settings.wet_wind) wet_shadow.emplace(scene, ray_scene, *settings.wet_wind);
     std::optional<WetGround> wet_ground;
     const double time = view.shutter_open + view.exposure_time / 2;
-    if (settings.wet.any()) wet_ground.emplace(scene, *shadow, settings.wet, time, settings.rain.seed);
+    if (settings.wet.any())
+        wet_ground.emplace(scene, wet_shadow ? *wet_shadow : *shadow, settings.wet, time, settings.rain.seed);
     const PathTracer tracer(scene, ray_scene, lights, settings.path, wet_ground ? &*wet_ground : nullptr);
 
     std::optional<StreakBins> bins;

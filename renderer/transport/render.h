@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 
 namespace pluvia {
@@ -27,6 +28,8 @@ struct RenderSettings {
     RainSettings rain = {};  // no intensities: no rain stage at all; lowest_ground is taken from the scene
     StreakSettings streaks = {};
     WetSettings wet = {};
+    std::optional<Vec3d> wet_wind =
+        {};  // m/s, of the rain that made the ground wet; empty: that of the rain that falls
     LabelSettings labels = {};
     int tile_size = 32;  // pixels; changes no byte of the picture
 };

@@ -42,6 +42,10 @@ void set_rain_over_time(const DatasetConfig& config, DatasetItem& item) {
     if (config.wind_over_time.empty()) return;
     item.options.wind = numbers(value_at(config.wind_over_time, item.frame));
     item.options.wind_travel = numbers(integral_to(config.wind_over_time, item.frame) * (1 / item.options.fps));
+    if (item.options.wetness == 0 && item.options.puddles == 0) return;
+    // Water does not leave the ground as soon as the wind turns: what is wet is so by the mean wind.
+    const double frames = std::max(1.0, config.wind_over_time.back().frame);
+    item.options.wet_wind = numbers(integral_to(config.wind_over_time, frames) * (1 / frames));
 }
 
 }  // namespace
