@@ -53,7 +53,8 @@ def statistics(clean, rainy):
     _, widths = runs(brighter, difference)
     lengths, _ = runs(brighter.T, difference.T)
     # Orientation by the structure tensor: twice the angle of the gradients, weighed by their squares.
-    gy, gx = numpy.gradient(difference)
+    # Of what is brighter alone: elsewhere it is that of the picture's own noise and of the veil.
+    gy, gx = numpy.gradient(numpy.where(brighter, difference, 0))
     moment = ((gx + 1j * gy) ** 2).sum() / max((gx ** 2 + gy ** 2).sum(), 1e-9)
     tilt = numpy.degrees(numpy.angle(moment)) / 2  # of the gradients from horizontal = of the streaks from vertical
     def percentiles(values, which):
