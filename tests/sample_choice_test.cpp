@@ -10,7 +10,6 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <cmath>
 
 namespace pluvia {
@@ -51,8 +50,8 @@ TEST_CASE("with a target the true error is within a factor of 1.3 of it in 18 of
         for (uint64_t run = 0; run < 20; ++run) {
             settings.seed = 100 + run;
             settings.choose_samples = [&](const PixelRenderer& pilot) {
-                return choose_samples({.error = target}, pilot, settings.rain.intensities_mm_per_h,
-                                      int64_t(view.width) * view.height, settings.seed, 0);
+                return samples_for_error(target, pilot, settings.rain.intensities_mm_per_h,
+                                         int64_t(view.width) * view.height, settings.seed);
             };
             const Picture p = render_picture(scene, world, view, settings);
             double got = error(p, reference, "background");
@@ -84,25 +83,6 @@ TEST_CASE("the picture of a chosen count has the bytes of --spp with it, and the
     CHECK(chosen == plain);
 }
 
-TEST_CASE("a time limit takes what fits at the pilot's speed, and one sample at least") {
-    const std::vector<double> dry;
-    int calls = 0;
-    // A picture of 1000 pixels whose samples take 10 microseconds each.
-    const PixelRenderer slow = [&](std::span<const int64_t> pixels, int samples, uint64_t) {
-        ++calls;
-        const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(10) * samples * pixels.size();
-        while (std::chrono::steady_clock::now() < end) {
-        }
-        return std::vector<float>(pixels.size() * layer_channels(dry).size());
-    };
-    const int samples = choose_samples({.seconds = 2.0}, slow, dry, 1000, 1, 0);
-    // 2 s are 200 samples; 4 % are kept, the pilot takes up to 3 %.
-    CHECK(samples <= 192);
-    CHECK(samples >= 170);
-    CHECK(calls >= 2);
-    CHECK(choose_samples({.seconds = 1e-6}, slow, dry, 1000, 1, 0) == 1);
-}
-
 TEST_CASE("render records the count that it chose and repeats it with --spp") {
     const TemporaryFolder folder;
     save_glb(lit_court(), folder / "court.glb");
@@ -119,7 +99,6 @@ TEST_CASE("render records the count that it chose and repeats it with --spp") {
     CHECK((read_file(folder / "a/frame.json") == read_file(folder / "b/frame.json")));
     CHECK(run_program(common + "/c --spp 4 --target-error 0.1").exit_code == 2);
     CHECK(run_program(common + "/c --target-error 0").exit_code == 2);
-    CHECK(run_program(common + "/c --time-limit -1").exit_code == 2);
 }
 
 }  // namespace pluvia

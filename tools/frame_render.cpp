@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <iostream>
 #include <optional>
 
@@ -65,7 +64,6 @@ std::shared_ptr<const StreakTextures> streak_textures(const RenderOptions& optio
 
 RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
                            const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
-    const auto start = std::chrono::steady_clock::now();
     const Camera camera = find_camera(frame.scene, options.camera);
     Scene& scene = frame.scene;
     if (lamp_count(scene) > 0 && !lamps_are_on(options.light, settings.environment)) switch_off_lamps(scene);
@@ -85,13 +83,11 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
     if (labels.next) result.header.next = labels.next->view, result.header.previous = labels.previous->view;
     SeenObjects seen;
     std::optional<FrameWriter> writer;
-    const SampleGoal goal{options.target_error, options.time_limit};
-    if (goal.any())
+    if (options.target_error)
         render_settings.choose_samples = [&](const PixelRenderer& pilot) {
             const View& view = result.header.view;
-            const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - start;
-            const int samples = choose_samples(goal, pilot, result.header.intensities,
-                                               int64_t(view.width) * view.height, options.seed, gone.count());
+            const int samples = samples_for_error(*options.target_error, pilot, result.header.intensities,
+                                                  int64_t(view.width) * view.height, options.seed);
             result.header.options["spp"] = samples;
             writer.emplace(exr, result.header);
             return samples;

@@ -96,11 +96,6 @@ void add_render_command(CLI::App& app) {
                      "clean picture and of the highest intensity's; a pilot chooses, the frame records --spp")
         ->group("Accuracy")
         ->excludes("--spp");
-    command
-        ->add_option("--time-limit", options->time_limit,
-                     "seconds: take as many samples as fit, by the speed of a pilot; the frame records --spp")
-        ->group("Accuracy")
-        ->excludes("--spp");
     command->callback([options] { render_command(*options); });
 }
 

@@ -23,8 +23,8 @@ struct RenderOptions {
     double fps = 24;
     std::string size = "1024x512";
     int spp = 64;
-    std::optional<double> target_error, time_limit;  // -, s: choose spp; not part of the frame, which records spp
-    int bounces = -1;                                // -1 = unlimited
+    std::optional<double> target_error;  // chooses spp, which the frame records in its stead
+    int bounces = -1;                    // -1 = unlimited
     std::vector<double> rain;
     std::vector<double> wind = {0, 0, 0};
     std::vector<double> wind_travel;  // empty: wind times the time

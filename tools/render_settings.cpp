@@ -52,9 +52,6 @@ RenderSettings render_settings(const RenderOptions& o) {
     if (o.target_error)
         require_option(*o.target_error >= 1e-4 && *o.target_error <= 10, "target-error", *o.target_error,
                        "0.0001 to 10");
-    if (o.time_limit)
-        require_option(*o.time_limit > 0 && *o.time_limit <= 1e7, "time-limit", *o.time_limit,
-                       "above 0 s, up to 10000000");
     s.samples = o.spp;
     s.seed = o.seed;
     if (o.bounces >= 0) s.path.max_bounces = o.bounces;

@@ -4,7 +4,6 @@
 #include "tools/validate/color_metrics.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 
@@ -12,10 +11,6 @@ namespace pluvia {
 namespace {
 
 constexpr uint64_t pilot_domain = 0x70696c6f74;  // "pilot": keeps its random numbers apart from the picture's
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// So many different pixels, one from each of as many equal parts of the picture; all where it has no more.
 std::vector<int64_t> scattered_pixels(int64_t picture_size, int64_t count, uint64_t seed) {
@@ -101,6 +96,8 @@ private:
     int total_ = 0;
 };
 
+}  // namespace
+
 int samples_for_error(double error, const PixelRenderer& render_pixels, const std::vector<double>& intensities,
                       int64_t picture_size, uint64_t seed) {
     constexpr int64_t pixel_count = 8192;  // 0.1 % of them, which the trimmed mean leaves out, are still a few
@@ -117,37 +114,6 @@ int samples_for_error(double error, const PixelRenderer& render_pixels, const st
             return int(std::clamp(std::ceil(needed), 1.0, double(most_samples)));
         before = got;
     }
-}
-
-int samples_in_time(double seconds, double seconds_gone, const PixelRenderer& render_pixels, int64_t picture_size,
-                    uint64_t seed) {
-    // Scattered pixels share less than those of a tile, so that the picture takes rather less time than they say.
-    const double share = 0.03 * seconds, start = now();
-    const auto pixels = scattered_pixels(picture_size, 4096, seed + 1);
-    double per_sample = 0, took = 0;  // seconds of the whole picture
-    for (int samples = 1;; samples *= 2) {
-        const double begin = now();
-        render_pixels(pixels, samples, hash_key(seed, pilot_domain));
-        took = now() - begin;
-        per_sample = took / samples * double(picture_size) / double(pixels.size());
-        if (now() - start > share / 2 || samples >= most_samples / 2) break;
-    }
-    // One sample's time for depth and files.
-    const double left = 0.96 * (seconds - seconds_gone - (now() - start)) - per_sample;
-    return int(std::clamp(std::floor(left / per_sample), 1.0, double(most_samples)));
-}
-
-}  // namespace
-
-int choose_samples(const SampleGoal& goal, const PixelRenderer& render_pixels, const std::vector<double>& intensities,
-                   int64_t picture_size, uint64_t seed, double seconds_gone) {
-    const double start = now();
-    int samples = most_samples;
-    if (goal.error) samples = samples_for_error(*goal.error, render_pixels, intensities, picture_size, seed);
-    if (goal.seconds)
-        samples = std::min(
-            samples, samples_in_time(*goal.seconds, seconds_gone + (now() - start), render_pixels, picture_size, seed));
-    return samples;
 }
 
 }  // namespace pluvia
