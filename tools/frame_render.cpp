@@ -4,11 +4,13 @@
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/lamps.h"
 #include "shaders/streak_files.h"
+#include "tools/sample_choice.h"
 #include "tools/streak_cache.h"
 
 #include <fmt/format.h>
 
 #include <iostream>
+#include <optional>
 
 namespace pluvia {
 namespace {
@@ -64,16 +66,28 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
                           to_json(options), settings.render.rain.intensities_mm_per_h},
                          0,
                          {}};
-    FrameWriter writer(exr, result.header);
+    std::optional<FrameWriter> writer;
+    RenderSettings render_settings = settings.render;
+    if (options.target_error)
+        render_settings.choose_samples = [&](const PixelRenderer& pilot) {
+            const View& view = result.header.view;
+            const int samples = samples_for_error(*options.target_error, pilot, result.header.intensities,
+                                                  int64_t(view.width) * view.height, options.seed);
+            result.header.options["spp"] = samples;
+            writer.emplace(exr, result.header);
+            return samples;
+        };
+    else
+        writer.emplace(exr, result.header);
     result.report = render(
-        scene, settings.environment, result.header.view, settings.render,
+        scene, settings.environment, result.header.view, render_settings,
         [&](const Band& band) {
             if (look) look(band);
-            writer.write(band);
+            writer->write(band);
         },
         progress);
-    result.ev100 = settings.ev100 ? *settings.ev100 : writer.background_luminance().auto_ev100();
-    writer.finish(result.ev100);
+    result.ev100 = settings.ev100 ? *settings.ev100 : writer->background_luminance().auto_ev100();
+    writer->finish(result.ev100);
     return result;
 }
 

@@ -29,6 +29,7 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
     if (options.json) {
         nlohmann::ordered_json j;
         j["output"] = options.output;
+        j["samples"] = r.samples;
         j["build_s"] = r.build_seconds, j["render_s"] = r.render_seconds;
         j["rays"] = r.counters.rays, j["camera_paths"] = r.counters[Feature::camera_path];
         j["streaks"] = r.streaks, j["sheltered_streaks"] = r.sheltered_streaks;
@@ -40,8 +41,9 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
         std::cout << json_text(j, 2) << "\n";
         return;
     }
-    std::cout << fmt::format("{}: {:.1f} s, {:.2f} million paths/s, EV {:.1f}\n", options.output, r.render_seconds,
-                             double(r.counters[Feature::camera_path]) / r.render_seconds * 1e-6, ev100);
+    std::cout << fmt::format("{}: {} samples, {:.1f} s, {:.2f} million paths/s, EV {:.1f}\n", options.output, r.samples,
+                             r.render_seconds, double(r.counters[Feature::camera_path]) / r.render_seconds * 1e-6,
+                             ev100);
     if (!intensities.empty())
         std::cout << fmt::format("rain: {} streaks in view, {} more under shelter\n", r.streaks, r.sheltered_streaks);
     for (size_t i = 0; i < intensities.size(); ++i)
@@ -87,6 +89,13 @@ void add_render_command(CLI::App& app) {
     auto* command = app.add_subcommand("render", "one frame of a glTF scene, clean and in the rain");
     auto options = std::make_shared<RenderOptions>();
     add_render_options(*command, *options);
+    // Of this command alone: the items of a dataset have the counts that its file says.
+    command
+        ->add_option("--target-error", options->target_error,
+                     "take as many samples as this needs: square root of the trimmed relMSE (validate compare), of the "
+                     "clean picture and of the highest intensity's; a pilot chooses, the frame records --spp")
+        ->group("Accuracy")
+        ->excludes("--spp");
     command->callback([options] { render_command(*options); });
 }
 

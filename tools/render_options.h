@@ -23,7 +23,8 @@ struct RenderOptions {
     double fps = 24;
     std::string size = "1024x512";
     int spp = 64;
-    int bounces = -1;  // -1 = unlimited
+    std::optional<double> target_error;  // chooses spp, which the frame records in its stead
+    int bounces = -1;                    // -1 = unlimited
     std::vector<double> rain;
     std::vector<double> wind = {0, 0, 0};
     std::string composition = "physical";

@@ -49,6 +49,9 @@ RenderSettings render_settings(const RenderOptions& o) {
     require_option(o.bounces >= -1, "bounces", o.bounces, "-1 or more");
     require_option(o.threads >= 0, "threads", o.threads, "0 or more");
     require_option(o.depth_max > 0 && o.depth_max <= 1e6, "depth-max", o.depth_max, "above 0 m, up to 1000000");
+    if (o.target_error)
+        require_option(*o.target_error >= 1e-4 && *o.target_error <= 10, "target-error", *o.target_error,
+                       "0.0001 to 10");
     s.samples = o.spp;
     s.seed = o.seed;
     if (o.bounces >= 0) s.path.max_bounces = o.bounces;

@@ -1,0 +1,17 @@
+// How many samples per pixel a picture needs for an error: found by a pilot on some of its pixels, whose samples are
+// none of the picture's. So the choice biases nothing, and the picture is that of --spp with the count.
+#pragma once
+
+#include "renderer/transport/render.h"
+
+namespace pluvia {
+
+constexpr int most_samples = 1 << 24;
+
+/// error: square root of the trimmed relMSE (tools/validate/color_metrics.h) against infinitely many samples, of the
+/// background and, where it rains, of the rainy picture of the highest intensity, whichever is larger. intensities: of
+/// the layers; picture_size: pixels of the picture; seed: of the picture. 1 to most_samples.
+int samples_for_error(double error, const PixelRenderer& render_pixels, const std::vector<double>& intensities,
+                      int64_t picture_size, uint64_t seed);
+
+}  // namespace pluvia
