@@ -62,7 +62,7 @@ TEST_CASE("frames of a sequence share their rain, and each has its own noise, in
     CHECK(items[2].options.wind_travel[0] == doctest::Approx(0.5));
     CHECK(items[2].options.wind_travel[2] == doctest::Approx(-0.1));
     CHECK(items[2].options.wet_wind.empty());
-    const Sequences wet("wetness: 1\n");
+    const Sequences wet("6", "wetness: 1\n");
     for (const DatasetItem& item : dataset_items(wet.dataset.config())) {
         REQUIRE(item.options.wet_wind.size() == 3);
         CHECK(item.options.wet_wind[0] == doctest::Approx(10.0 / 3));

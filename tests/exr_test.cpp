@@ -298,7 +298,7 @@ TEST_CASE("an EXR may be 32768 pixels wide or high, and no more") {
         CHECK(error_of([&] { ExrWriter(folder / "x.exr", width, height, channels); }).code() ==
               ExitCode::render_failed);
     CHECK_FALSE(std::filesystem::exists(folder / "x.exr"));
-    const Error error = error_of([&] { ExrWriter(folder / "no/such/x.exr", 32, 32, channels); });
+    const Error error = error_of([&] { ExrWriter("/proc/no/such/x.exr", 32, 32, channels); });
     CHECK(error.code() == ExitCode::render_failed);
-    CHECK(names(error, folder / "no/such/x.exr"));
+    CHECK(names(error, "/proc/no/such/x.exr"));
 }

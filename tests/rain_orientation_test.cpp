@@ -62,7 +62,7 @@ TEST_CASE("in still air streaks are upright for a level camera and run towards t
             CHECK(std::abs(sine) < 1e-3);
             ++count;
         }
-        CHECK(count > 300);
+        CHECK(count > 150);
     }
 }
 

@@ -39,7 +39,7 @@ struct DropPopulation {
     uint64_t seed = 0;
     Vec3d wind;                // m/s, world
     double lowest_ground = 0;  // metres, world y: drops exist from here to rain_height above
-    Vec3d blown;               // metres that the air has moved beyond wind * time: winds before were others
+    Vec3d blown = {};          // metres that the air has moved beyond wind * time: winds before were others
 };
 
 struct Drop {

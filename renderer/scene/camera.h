@@ -13,13 +13,13 @@ namespace pluvia {
 constexpr double sensor_width = 0.036;  // metres
 
 struct CameraSettings {
-    int width = 1024, height = 512;   // pixels
-    double focal_length = 0;          // metres, for a sensor 36 mm wide; 0 = the camera's own vertical field of view
-    double f_number = 0;              // 0 = pinhole
-    double focus_distance = 10;       // metres of view depth
-    double exposure_time = 1.0 / 60;  // seconds
-    double mid_exposure = 0;          // seconds of the sequence
-    std::optional<Vec3d> velocity;    // m/s, where it is not to be the camera's own
+    int width = 1024, height = 512;      // pixels
+    double focal_length = 0;             // metres, for a sensor 36 mm wide; 0 = the camera's own vertical field of view
+    double f_number = 0;                 // 0 = pinhole
+    double focus_distance = 10;          // metres of view depth
+    double exposure_time = 1.0 / 60;     // seconds
+    double mid_exposure = 0;             // seconds of the sequence
+    std::optional<Vec3d> velocity = {};  // m/s, where it is not to be the camera's own
 };
 
 View make_view(const Camera& camera, const CameraSettings& settings);
