@@ -6,6 +6,7 @@
 #include "renderer/core/error.h"
 #include "renderer/image/image_io.h"
 #include "renderer/image/pending_file.h"
+#include "renderer/scene/gltf_arrays.h"
 #include "renderer/scene/gltf_extras.h"
 #include "renderer/scene/gltf_save_material.h"
 
@@ -65,7 +66,7 @@ std::vector<Rgba8> as_bytes(const Mesh& mesh) {
 }
 
 /// Gathers the file's parts; everything binary goes into its one buffer.
-class GlbWriter {
+class GlbWriter : GlbArrays {
 public:
     GlbWriter(const Scene& scene, const std::vector<NodeMotion>& motions) : scene_(scene) {
         for (const NodeMotion& motion : motions) motions_[motion.path] = &motion;
@@ -87,62 +88,6 @@ public:
     const tinygltf::Model& model() const { return model_; }
 
 private:
-    template <class T>
-    int add_view(std::span<const T> values, int target) {
-        std::vector<unsigned char>& bytes = model_.buffers[0].data;
-        bytes.resize((bytes.size() + 3) / 4 * 4);  // accessors of floats and 32-bit indices start at multiples of 4
-        tinygltf::BufferView view;
-        view.buffer = 0;
-        view.byteOffset = bytes.size();
-        view.byteLength = values.size_bytes();
-        view.target = target;
-        bytes.resize(bytes.size() + values.size_bytes());
-        std::memcpy(bytes.data() + view.byteOffset, values.data(), values.size_bytes());
-        model_.bufferViews.push_back(view);
-        return int(model_.bufferViews.size()) - 1;
-    }
-
-    template <class T>
-    int add_accessor(std::span<const T> values, int component_type, int type, int target, size_t count) {
-        tinygltf::Accessor accessor;
-        accessor.bufferView = add_view(values, target);
-        accessor.componentType = component_type;
-        accessor.type = type;
-        accessor.count = count;
-        model_.accessors.push_back(accessor);
-        return int(model_.accessors.size()) - 1;
-    }
-
-    /// components: floats per element, which are flattened by the caller.
-    int add_floats(const std::vector<float>& values, int components, int target = TINYGLTF_TARGET_ARRAY_BUFFER) {
-        constexpr int types[] = {0, TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4};
-        return add_accessor(std::span(values), TINYGLTF_COMPONENT_TYPE_FLOAT, types[components], target,
-                            values.size() / size_t(components));
-    }
-
-    /// Three bytes and one of padding a vertex.
-    int add_colors(const std::vector<Rgba8>& colors) {
-        const int accessor = add_accessor(std::span(colors), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC3,
-                                          TINYGLTF_TARGET_ARRAY_BUFFER, colors.size());
-        model_.accessors[accessor].normalized = true;
-        model_.bufferViews[model_.accessors[accessor].bufferView].byteStride = sizeof(Rgba8);
-        return accessor;
-    }
-
-    int add_indices(const Mesh& mesh) {
-        const size_t count = 3 * mesh.triangles.size();
-        // The largest 16-bit index is left out: some systems restart strips at it.
-        if (mesh.positions.size() > 0xffff)
-            return add_accessor(std::span(mesh.triangles), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR,
-                                TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, count);
-        std::vector<uint16_t> narrow;
-        narrow.reserve(count);
-        for (const auto& triangle : mesh.triangles)
-            for (const uint32_t vertex : triangle) narrow.push_back(uint16_t(vertex));
-        return add_accessor(std::span<const uint16_t>(narrow), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                            TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, count);
-    }
-
     void use_extension(const std::string& name) {
         auto& used = model_.extensionsUsed;
         if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
@@ -385,7 +330,6 @@ private:
     }
 
     const Scene& scene_;
-    tinygltf::Model model_;
     std::map<std::string, const NodeMotion*> motions_;  // by path
     std::map<std::string, int> groups_;
     std::map<std::string, std::map<std::string, int>> numbers_in_class_;  // by class, then by path
