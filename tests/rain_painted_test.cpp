@@ -95,6 +95,18 @@ TEST_CASE("the number of painted streaks is the integral over the frustum, and t
     }
 }
 
+TEST_CASE("a picture half as wide shows the same painted streaks") {
+    const View view = paper_view();
+    View half = view;
+    half.width /= 2, half.height /= 2, half.focal_pixels /= 2;
+    const auto large = find_streaks(view, painted_rain(25)), small = find_streaks(half, painted_rain(25));
+    REQUIRE(large.size() == small.size());
+    bool same = true;
+    for (size_t i = 0; i < large.size(); ++i)
+        same &= large[i].key == small[i].key && large[i].radius == small[i].radius;
+    CHECK(same);
+}
+
 TEST_CASE("a larger share keeps the streaks of a smaller one") {
     const View view = paper_view();
     RainSettings settings = painted_rain(10);

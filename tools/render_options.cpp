@@ -36,9 +36,8 @@ void add_rain_options(CLI::App& command, RenderOptions& o) {
         ->group(rain);
     command
         .add_option("--streak-distance", o.streak_distance,
-                    "paper: drops beyond this many metres are drawn as wide as at it and 3 pixels at least, up to 5 "
-                    "times as far; 1.78 = the "
-                    "published code, 0 = true width")
+                    "paper: drops beyond this many metres are drawn as wide as at it and 3 of 2048 pixels at least, up "
+                    "to 5 times as far; 1.78 = the published code, 0 = true width")
         ->capture_default_str()
         ->group(rain);
     command
@@ -52,7 +51,8 @@ void add_rain_options(CLI::App& command, RenderOptions& o) {
         ->group(rain);
     command
         .add_option("--streak-width", o.streak_width,
-                    "pixels; narrower drops are not streaks but a medium [0.25]; paper: they are left out [1]")
+                    "pixels; narrower drops are not streaks but a medium [0.25]; paper: they are left out [1], with "
+                    "--streak-distance pixels of a picture 2048 wide")
         ->group(rain);
     command
         .add_option("--fog-beta", o.fog_beta, "extinction in 1/m of a fog beside the rain; 0.001: one sees 4 km far")

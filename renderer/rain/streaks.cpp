@@ -61,14 +61,20 @@ double widening(const RainSettings& settings, double depth) {
     return settings.painted_distance > 0 ? std::max(1.0, depth / settings.painted_distance) : 1.0;
 }
 
-/// The same of a drop that is drawn: its streak is painted_width pixels wide at least.
+/// The same of a drop that is drawn: its streak is painted_width wide at least, and a pixel of a small picture.
 double painted_widening(const RainSettings& settings, const View& view, double diameter, double depth) {
     if (settings.painted_distance <= 0) return 1;
-    return std::max(widening(settings, depth), painted_width * depth / (diameter * view.focal_pixels));
+    const double least = std::max(painted_width * view.width / painted_picture, 1.0);
+    return std::max(widening(settings, depth), least * depth / (diameter * view.focal_pixels));
+}
+
+double least_pixels(const View& view, const RainSettings& settings) {
+    return settings.min_width_pixels * (settings.painted_distance > 0 ? view.width / painted_picture : 1);
 }
 
 double farthest_depth(const View& view, const RainSettings& settings, const SizeClass& size) {
-    const double depth = size.d2 * view.focal_pixels / settings.min_width_pixels, painted = settings.painted_distance;
+    const double depth = size.d2 * view.focal_pixels / least_pixels(view, settings),
+                 painted = settings.painted_distance;
     return painted > 0 && depth >= painted ? painted_reach * painted : depth;
 }
 
@@ -208,11 +214,12 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
         const Vec3d middle = drop.position - camera_at_open(view) + velocity * (view.exposure_time / 2);
         return -dot(middle, view.back);
     };
+    const double least_width = least_pixels(view, settings);
     const auto is_streak = [&](const Drop& drop, double depth) {
         if (settings.painted_distance > 0 && depth > painted_reach * settings.painted_distance) return false;
         if (settings.share < 1 && unit_double(hash_key(drop.key, 0x7368617265)) >= settings.share) return false;
         const double width = drop.diameter * widening(settings, depth);
-        return depth >= settings.near && width * view.focal_pixels >= settings.min_width_pixels * depth;
+        return depth >= settings.near && width * view.focal_pixels >= least_width * depth;
     };
     constexpr int cells_per_block = 16;
     const int block_count = (int(cells.size()) + cells_per_block - 1) / cells_per_block;
@@ -228,7 +235,7 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
                 const double nearest =
                     -dot(lower_end - region.camera, view.back) - std::max(0.0, dot(line, view.back)) - region.approach;
                 // A little less, so that rounding leaves the decision to is_streak.
-                const double least = (1 - 1e-6) * settings.min_width_pixels * nearest / view.focal_pixels;
+                const double least = (1 - 1e-6) * least_width * nearest / view.focal_pixels;
                 return least / widening(settings, nearest);
             };
             const auto keep = [&](const Drop& drop) {

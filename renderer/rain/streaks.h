@@ -27,9 +27,10 @@ struct RainSettings {
                                   // least, up to painted_reach times as far, and there are none beyond; 0 = true width
     double share = 1;             // of the drops, whatever their size
 };
-/// Both as seen in HRI: its quads are at least so many pixels wide (the published code's smallest box), and with drops
-/// of its density its pictures have as many streaks as there are drops in 9 m.
-constexpr double painted_width = 3, painted_reach = 5;
+/// As seen in HRI: streaks are at least so many pixels wide (the published code's smallest box), and with drops of its
+/// density its pictures have as many streaks as there are drops in 9 m. Pixels of pictures of its width: in others
+/// min_width_pixels and painted_width are as large a share of the picture.
+constexpr double painted_width = 3, painted_picture = 2048, painted_reach = 5;
 
 /// A falling drop relative to the camera during one exposure. View axes: x right, y up, z view depth. Single precision
 /// is enough: relative to the camera it rounds directions by 1e-7, a few 1e-4 pixels, and that the same for all rays.
