@@ -65,6 +65,15 @@ TEST_CASE("training on one pair learns it") {
         learnt += std::pow(result.pixels[i].g - p.rainy.pixels[i].g, 2);
     }
     CHECK(learnt < 0.1 * clean);
+
+    Trainer further({pair_by_formula()}, quick());
+    further.start_from(folder / "model");
+    further.train_step();
+    CHECK(further.take_losses().front() < 0.1 * losses.front());
+    TrainingSettings wider = quick();
+    wider.channels = 24;
+    Trainer other({pair_by_formula()}, wider);
+    CHECK_THROWS_AS(other.start_from(folder / "model"), Error);
 }
 
 TEST_CASE("training that was interrupted ends with the same weights as one that was not") {
