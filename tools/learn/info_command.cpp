@@ -17,8 +17,9 @@ void print_part(const SafetensorsFile& file, const char* name, const char* prefi
 }
 
 std::string unet_text(const UNetConfig& u) {
-    return fmt::format("{} channels x {}, {} blocks a level, attention at 1/{}{}", u.channels,
-                       fmt::join(u.multipliers, ","), u.res_blocks, fmt::join(u.attention_factors, ", 1/"),
+    return fmt::format("{} channels x {}, {} blocks a level, attention in the middle{}{}{}", u.channels,
+                       fmt::join(u.multipliers, ","), u.res_blocks, u.attention_factors.empty() ? "" : " and at 1/",
+                       fmt::join(u.attention_factors, ", 1/"),
                        u.context_channels > 0 ? fmt::format(", guide of {} channels", u.context_channels) : "");
 }
 
