@@ -57,6 +57,23 @@ TEST_CASE("info refuses what is no model with exit code 3") {
     CHECK(run_program("learn info /nonexistent").exit_code == 3);
 }
 
+TEST_CASE("the model that comes with Pluvia is taken where none is named") {
+    const Outcome info = run_program("learn info");
+    REQUIRE(info.exit_code == 0);
+    CHECK(info.out.find("training") != std::string::npos);
+    if (!has_libtorch()) {
+        MESSAGE("inference skipped: libtorch is missing");
+        return;
+    }
+    const TemporaryFolder folder;
+    write_grey(folder / "clean.png", 64, 32, 60);
+    write_grey(folder / "mask.png", 64, 32, 8);
+    const Outcome o = run_program("learn infer --progress none --background " + (folder / "clean.png") + " --mask " +
+                                  (folder / "mask.png") + " -o " + (folder / "out"));
+    REQUIRE(o.exit_code == 0);
+    CHECK(read_rgba8(folder / "out/mask.png").width == 64);
+}
+
 TEST_CASE("evaluate finds the PSNR of a known difference, overall and in the rain") {
     const TemporaryFolder folder;
     write_grey(folder / "truth.png", 32, 16, 100);

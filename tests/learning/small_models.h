@@ -10,8 +10,6 @@
 
 namespace pluvia {
 
-using NamedTensors = std::vector<std::pair<std::string, at::Tensor>>;
-
 /// The tensors of a network under a prefix, none of them zero.
 template <class Network, class Config>
 void add_network(NamedTensors& tensors, const std::string& prefix, const Config& config, uint64_t seed) {

@@ -3,6 +3,7 @@
 #include "renderer/image/image_io.h"
 #include "tools/learn/learn_commands.h"
 #include "tools/learn/picture_files.h"
+#include "tools/learning/default_model.h"
 #include "tools/learning/synthesis.h"
 #include "tools/progress.h"
 
@@ -48,7 +49,8 @@ void write_picture(const std::string& path, const Image<Rgba8>& picture, const P
 /// What decides over the bytes of the pictures.
 PngText text_of(const InferOptions& o, const SynthesisSettings& s, const ModelConfig& model) {
     std::string text = fmt::format("{} model {}, tiling {}, tile {}", model_kind_name(model.kind),
-                                   fs::path(o.model).filename().string(), o.tiling, s.tiles.size);
+                                   fs::path(o.model.empty() ? default_model_path() : o.model).filename().string(),
+                                   o.tiling, s.tiles.size);
     if (!s.tiles.plain) text += fmt::format(", overlap {}", s.tiles.overlap);
     if (model.kind == ModelConfig::Kind::diffusion)
         text += fmt::format(", steps {}, eta {}, seed {}", s.steps, s.eta, s.seed);
@@ -64,7 +66,7 @@ void infer_command(const InferOptions& o) {
         throw usage_error("--threads", fmt::format("is not valid (got {}, expected 0 or more)", o.threads));
     set_thread_count(o.threads);
     set_learning_threads(o.threads);
-    const auto model = load_model(o.model, o.device);
+    const auto model = load_model(o.model.empty() ? default_model_path() : o.model, o.device);
     for (const std::string& notice : config_of(*model).notices) std::cerr << "pluvia: notice: " << notice << "\n";
     if (o.device == "cpu")
         if (const std::string notice = slow_blas_notice(); !notice.empty())
@@ -117,7 +119,7 @@ void add_learn_infer_command(CLI::App& learn) {
         ->add_option("--mask", o.mask,
                      "rain layers with alpha, or grey masks: a folder with the same names, or one file for all")
         ->required();
-    command->add_option("--model", o.model, "weights, .safetensors")->required();
+    command->add_option("--model", o.model, "weights, .safetensors; default: those that come with Pluvia");
     command->add_option("-o,--output", o.output, "folder of the rainy pictures, PNG")->required();
     command->add_option("--steps", o.settings.steps, "of a diffusion model")->capture_default_str();
     command->add_option("--eta", o.settings.eta, "0 nothing random after the first noise, 1 as HRIGNet was published")
@@ -128,15 +130,14 @@ void add_learn_infer_command(CLI::App& learn) {
     command->add_option("--tile", o.settings.tiles.size, "side of a tile, pixels")->capture_default_str();
     command->add_option("--overlap", o.settings.tiles.overlap, "of neighbouring tiles at least, pixels")
         ->capture_default_str();
-    command->add_flag("--no-anchor", o.no_anchor, "do not hold colours to the known pixels beside the rain");
-    command->add_flag("--hard", o.hard, "no fading at the rims of streaks");
+    command->add_flag("--no-anchor", o.no_anchor, "do not hold a diffusion to the known pixels beside the rain");
+    command->add_flag("--hard", o.hard, "no fading at the rims of streaks; models without a first stage never need it");
     command->add_flag("--lighten", o.settings.blend.lighten, "rain never darkens a pixel");
     command->add_option("--device", o.device, "cpu or cuda")->capture_default_str();
     command->add_option("--threads", o.threads, "0: all")->capture_default_str();
     command->add_flag("--overwrite", o.overwrite, "make pictures that are there again");
     command->add_option("--progress", o.progress, "bar, json or none")->capture_default_str();
-    command->footer(
-        "Example:\n  pluvia learn infer --background clean --mask masks --model model.safetensors -o rainy");
+    command->footer("Example:\n  pluvia learn infer --background clean --mask masks -o rainy");
     command->callback([options] { infer_command(*options); });
 }
 

@@ -52,7 +52,7 @@ void add_learn_command(CLI::App& app) {
     learn->footer(
         "infer and train need libtorch when Pluvia is built: apt-get install libtorch-dev libopenblas0-pthread.\n"
         "Example:\n  pluvia learn mask --rain 50 --size 2048x1024 -o masks\n"
-        "  pluvia learn infer --background clean --mask masks --model model.safetensors -o rainy");
+        "  pluvia learn infer --background clean --mask masks -o rainy");
 }
 
 }  // namespace pluvia

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct TrainOptions {
-    std::string dataset, background, mask, truth, output;
+    std::string dataset, background, mask, truth, output, kind = "regression", from;
     TrainingSettings settings;
     int checkpoint_every = 500;
     int threads = 0;
@@ -36,7 +36,11 @@ void train_command(const TrainOptions& o) {
         o.dataset.empty() ? training_files(o.background, o.mask, o.truth) : training_files_of_dataset(o.dataset);
     std::vector<TrainingPair> pairs(files.size());
     parallel_for(int(files.size()), [&](int i) { pairs[i] = read_training_pair(files[i]); });
-    Trainer trainer(std::move(pairs), o.settings);
+    TrainingSettings settings = o.settings;
+    if (o.kind == "diffusion") settings.kind = ModelConfig::Kind::diffusion;
+    Trainer trainer(pairs, settings);
+    pairs.clear();
+    if (!o.from.empty()) trainer.start_from(o.from);
 
     std::error_code error;
     fs::create_directories(o.output, error);
@@ -47,24 +51,31 @@ void train_command(const TrainOptions& o) {
         std::cerr << fmt::format("pluvia: going on from step {} of {}\n", trainer.step(), checkpoint);
     }
     LossLog log(o.output + "/log.csv", trainer.step());
+    double loss = 0;
+    const auto log_losses = [&] {
+        const std::vector<double> losses = trainer.take_losses();
+        for (size_t i = 0; i < losses.size(); ++i)
+            log.add(trainer.step() - int(losses.size()) + int(i), loss = losses[i]);
+    };
     const auto save = [&] {
+        log_losses();
         trainer.save(checkpoint);
-        trainer.save_model(
-            o.output + "/model.safetensors",
-            fmt::format("{} steps on {} pairs, batch {}, crop {}, seed {}{}", trainer.step(), files.size(),
-                        o.settings.batch, o.settings.crop, o.settings.seed, o.note.empty() ? "" : "; " + o.note));
+        trainer.save_model(o.output + "/model.safetensors",
+                           fmt::format("{} steps on {} pairs, batch {}, crop {}, learning rate {}, seed {}{}",
+                                       trainer.step(), files.size(), settings.batch, settings.crop,
+                                       settings.learning_rate, settings.seed, o.note.empty() ? "" : "; " + o.note));
         log.write();
         log.plot(o.output + "/loss.svg");
     };
     catch_interrupts();
     bool stopped = false;
-    double loss = 0;
     {
         Progress progress(style, "training");
-        while (trainer.step() < o.settings.steps && !stopped) {
-            const int step = trainer.step();
-            log.add(step, loss = trainer.train_step());
-            stopped = !progress.update(double(trainer.step()) / o.settings.steps);
+        while (trainer.step() < settings.steps && !stopped) {
+            trainer.train_step();
+            // Reading a loss waits for the device.
+            if (trainer.step() % 10 == 0) log_losses();
+            stopped = !progress.update(double(trainer.step()) / settings.steps);
             if (stopped || trainer.step() % o.checkpoint_every == 0) save();
         }
     }
@@ -82,7 +93,7 @@ void add_learn_train_command(CLI::App& learn) {
         "train",
         "Train a network that draws rain onto clean pictures, on pairs that were rendered. The output folder gets\n"
         "model.safetensors, checkpoint.safetensors, log.csv and loss.svg; run again, training goes on from there.\n"
-        "Pictures are kept in memory: 11 bytes a pixel and pair.");
+        "Pictures are kept in memory: 23 bytes a pixel and pair at first, 10 bytes while training, on the device.");
     auto options = std::make_shared<TrainOptions>();
     TrainOptions& o = *options;
     command->add_option("--dataset", o.dataset, "trainset.json of a dataset in HRI's layout");
@@ -90,12 +101,20 @@ void add_learn_train_command(CLI::App& learn) {
     command->add_option("--mask", o.mask, "folder of rain layers with alpha, or masks, of the same names");
     command->add_option("--truth", o.truth, "folder of rainy pictures of the same names");
     command->add_option("-o,--output", o.output, "folder")->required();
+    command
+        ->add_option(
+            "--kind", o.kind,
+            "regression: one pass, the mean of what rain may do; diffusion: one possible rain, drawn from noise")
+        ->check(CLI::IsMember({"regression", "diffusion"}))
+        ->capture_default_str();
     command->add_option("--steps", o.settings.steps, "of optimisation, in all")->capture_default_str();
     command->add_option("--batch", o.settings.batch, "crops a step")->capture_default_str();
     command->add_option("--crop", o.settings.crop, "side of a crop, pixels")->capture_default_str();
-    command->add_option("--channels", o.settings.channels, "width of the network")->capture_default_str();
+    command->add_option("--channels", o.settings.channels, "width of the network; of diffusion's guide half of it")
+        ->capture_default_str();
     command->add_option("--learning-rate", o.settings.learning_rate, "at its highest")->capture_default_str();
     command->add_option("--seed", o.settings.seed, "of weights and crops")->capture_default_str();
+    command->add_option("--from", o.from, "model whose weights are the first ones, trained on with other pictures");
     command->add_option("--checkpoint-every", o.checkpoint_every, "steps")->capture_default_str();
     command->add_option("--device", o.settings.device, "cpu or cuda")
         ->check(CLI::IsMember({"cpu", "cuda"}))

@@ -46,7 +46,9 @@ std::vector<TrainingFiles> training_files_of_dataset(const std::string& list) {
 }
 
 TrainingPair read_training_pair(const TrainingFiles& files) {
-    return {read_rgba8(files.background), rain_coverage(read_rgba8(files.mask)), read_rgba8(files.rainy)};
+    Image<Rgba8> layer = read_rgba8(files.mask);
+    Image<uint8_t> coverage = rain_coverage(layer);
+    return {read_rgba8(files.background), std::move(layer), std::move(coverage), read_rgba8(files.rainy)};
 }
 
 LossLog::LossLog(const std::string& path, int first_step) : path_(path) {
@@ -92,9 +94,8 @@ void LossLog::plot(const std::string& path) const {
         "font-size=\"13\"><rect width=\"{0}\" height=\"{1}\" fill=\"white\"/><polyline fill=\"none\" "
         "stroke=\"#1f5fa8\" "
         "points=\"{2}\"/><text x=\"{3}\" y=\"{4}\">{5:.3g}</text><text x=\"{3}\" y=\"{6}\">{7:.3g}</text>"
-        "<text x=\"{8}\" y=\"{9}\" text-anchor=\"end\">step {10:.0f}</text><text x=\"{11}\" y=\"24\">loss: mean "
-        "squared "
-        "difference where there is rain, logarithmic</text></svg>\n",
+        "<text x=\"{8}\" y=\"{9}\" text-anchor=\"end\">step {10:.0f}</text><text x=\"{11}\" y=\"24\">loss, "
+        "logarithmic</text></svg>\n",
         width, height, line, 8, border + 4, std::pow(10, high->second), height - border + 4, std::pow(10, bottom),
         width - border, height - border + 24, last, border);
     file.commit();

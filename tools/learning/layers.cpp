@@ -21,7 +21,7 @@ Linear::Linear(const Parameters& p, int64_t in, int64_t out, bool with_bias)
 }
 
 at::Tensor Linear::operator()(const at::Tensor& x) const {
-    return at::linear(x, weight, bias.defined() ? c10::optional<at::Tensor>(bias) : c10::nullopt);
+    return bias.defined() ? at::linear(x, weight, bias) : at::linear(x, weight);
 }
 
 GroupNorm::GroupNorm(const Parameters& p, int64_t channels, double epsilon_)
@@ -34,7 +34,7 @@ at::Tensor GroupNorm::operator()(const at::Tensor& x) const {
 }
 
 at::Tensor swish(at::Tensor x) {
-    return at::GradMode::is_enabled() ? at::silu(x) : at::silu_(x);
+    return c10::GradMode::is_enabled() ? at::silu(x) : at::silu_(x);
 }
 
 at::Tensor double_size(const at::Tensor& x) {

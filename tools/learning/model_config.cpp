@@ -51,6 +51,13 @@ ModelConfig model_config(const SafetensorsFile& file) {
     read_number(j, "times", c.diffusion.times, 1, 1'000'000, path);
     read_number(j, "first_beta", c.diffusion.first_beta, 1e-9, 0.999, path);
     read_number(j, "last_beta", c.diffusion.last_beta, c.diffusion.first_beta, 0.999, path);
+    read_number(j, "fold", c.fold, 1, 16, path);
+    if (const auto tells = j.find("tells"); tells != j.end()) {
+        if (*tells != "noise" && *tells != "velocity")
+            throw input_error(path, fmt::format("metadata \"tells\" is not valid (got {}, expected noise or velocity)",
+                                                tells->dump().substr(0, 40)));
+        c.tells_velocity = *tells == "velocity";
+    }
     if (j.contains("kind")) {
         const Json& kind = j["kind"];
         if (kind != "diffusion" && kind != "regression")
@@ -61,21 +68,26 @@ ModelConfig model_config(const SafetensorsFile& file) {
     }
     c.unet = unet_config(shapes_below(file.entries(), unet_prefix), head_width, path);
     if (c.kind == ModelConfig::Kind::regression) {
+        c.fold = 1;
         check_channels(path, "the network's input", c.unet.in_channels, regression_channels);
         check_channels(path, "the network's output", c.unet.out_channels, 3);
         check_channels(path, "the guide", c.unet.context_channels, 0);
         return c;
     }
-    c.first_stage = first_stage_config(shapes_below(file.entries(), first_stage_prefix), path);
-    const int64_t latent = c.first_stage->code_channels;
-    check_channels(path, "the first stage's picture", c.first_stage->image_channels, 3);
-    check_channels(path, "the UNet's input", c.unet.in_channels, 2 * latent);
+    const TensorShapes first_stage = shapes_below(file.entries(), first_stage_prefix);
+    int64_t latent = 3 * c.fold * c.fold, condition = regression_channels * c.fold * c.fold;
+    if (!first_stage.empty() || !j.contains("fold")) {
+        c.first_stage = first_stage_config(first_stage, path);
+        latent = condition = c.first_stage->code_channels;
+        check_channels(path, "the first stage's picture", c.first_stage->image_channels, 3);
+    }
+    check_channels(path, "the UNet's input", c.unet.in_channels, latent + condition);
     check_channels(path, "the UNet's output", c.unet.out_channels, latent);
     const TensorShapes guide = shapes_below(file.entries(), guide_prefix);
     if (c.unet.context_channels > 0) {
         if (guide.empty()) throw input_error(path, "its UNet asks for a guiding model, and the file has none");
         c.guide = unet_config(guide, head_width, path);
-        check_channels(path, "the guiding model's input", c.guide->in_channels, 2 * latent);
+        check_channels(path, "the guiding model's input", c.guide->in_channels, latent + condition);
         check_channels(path, "the guiding model's output", c.guide->out_channels, latent);
         check_channels(path, "attention to the guide", c.unet.context_channels, latent);
         check_channels(path, "the guiding model's own guide", c.guide->context_channels, 0);
@@ -92,6 +104,8 @@ std::map<std::string, std::string> model_metadata(const ModelConfig& c) {
         j["times"] = c.diffusion.times;
         j["first_beta"] = c.diffusion.first_beta;
         j["last_beta"] = c.diffusion.last_beta;
+        if (!c.first_stage) j["fold"] = c.fold;
+        if (c.tells_velocity) j["tells"] = "velocity";
     }
     auto metadata = c.metadata;
     metadata[metadata_key] = j.dump();

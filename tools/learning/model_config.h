@@ -15,11 +15,14 @@ constexpr const char* first_stage_prefix = "first_stage_model.";
 constexpr const char* guide_prefix = "gdm.model.diffusion_model.";
 
 struct ModelConfig {
-    /// diffusion: the published way. regression: a single pass of the UNet on pixels, clean picture and coverage in,
-    /// the change of the picture out.
+    /// diffusion: the published way with a first stage; without one, cells of fold x fold pixels, conditioned on clean
+    /// picture and coverage, become the change of the picture. regression: a single pass of the UNet on pixels, clean
+    /// picture and coverage in, the change of the picture out.
     enum class Kind { diffusion, regression } kind = Kind::diffusion;
     UNetConfig unet;
     std::optional<FirstStageConfig> first_stage;  // of diffusion
+    int fold = 1;                                 // without a first stage: pixels along a side of a cell
+    bool tells_velocity = false;                  // diffusion's networks tell velocity (losses.h), else noise
     std::optional<UNetConfig> guide;              // only where the UNet looks at it
     DiffusionConfig diffusion;
     std::vector<std::string> notices;             // what the user should know, a line each

@@ -55,7 +55,7 @@ Parameters listed_parameters(TensorShapes& list) {
     });
 }
 
-Parameters recorded_parameters(Parameters source, std::vector<std::pair<std::string, at::Tensor>>& kept) {
+Parameters recorded_parameters(Parameters source, NamedTensors& kept) {
     return Parameters([source, &kept](const std::string& name, const TensorShape& shape, const Start& start) {
         kept.emplace_back(name, source.get(name, shape, start));
         return kept.back().second;

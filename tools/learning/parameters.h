@@ -5,6 +5,7 @@
 #include "tools/learning/network_config.h"
 
 #include <ATen/ATen.h>
+#include <c10/core/GradMode.h>
 
 #include <functional>
 #include <memory>
@@ -18,6 +19,9 @@ struct Start {
     int64_t fan_in = 1;       // uniform: within 1 / sqrt(fan_in), as torch starts its layers
     bool last_layer = false;  // zero because the block is to begin as the identity
 };
+
+/// Tensors in an order.
+using NamedTensors = std::vector<std::pair<std::string, at::Tensor>>;
 
 class Parameters {
 public:
@@ -50,6 +54,6 @@ Parameters fresh_parameters(uint64_t seed, bool everywhere = false);
 Parameters listed_parameters(TensorShapes& list);
 
 /// Passes on what a source gives and keeps it by name, for training and saving.
-Parameters recorded_parameters(Parameters source, std::vector<std::pair<std::string, at::Tensor>>& kept);
+Parameters recorded_parameters(Parameters source, NamedTensors& kept);
 
 }  // namespace pluvia

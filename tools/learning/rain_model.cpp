@@ -19,8 +19,17 @@ at::Device device_named(const std::string& name) {
     return at::kCUDA;
 }
 
+at::Tensor seen_coverage(const at::Tensor& coverage) {
+    return (coverage * 16).clamp_max(1);
+}
+
+at::Tensor guide_tokens(const at::Tensor& cells) {
+    constexpr int64_t side = 16;
+    return at::adaptive_avg_pool2d(cells, {side, side}).flatten(2).transpose(1, 2);
+}
+
 std::shared_ptr<const RainModel> load_model(const std::string& path, const std::string& device) {
-    const at::NoGradGuard no_gradients;
+    const c10::NoGradGuard no_gradients;
     const auto model = std::make_shared<RainModel>();
     model->device = device_named(device);
     const auto file = std::make_shared<SafetensorsFile>(path);
@@ -43,7 +52,7 @@ void set_learning_threads(int threads) {
 std::string slow_blas_notice() {
     constexpr int64_t n = 256;
     constexpr double slow = 4e9;  // operations/s of one core; reference BLAS stays below 3e9, OpenBLAS above 20e9
-    const at::NoGradGuard no_gradients;
+    const c10::NoGradGuard no_gradients;
     const at::Tensor a = at::full({n, n}, 0.5f);
     at::mm(a, a);  // pages and threads are there from here on
     const auto processor_seconds = [] {

@@ -12,7 +12,6 @@
 namespace pluvia {
 namespace {
 
-constexpr int guide_tokens = 16;            // a side, of the guide's picture pooled for attention
 constexpr uint32_t guide_noise = 1u << 16;  // steps of its noise begin here
 
 /// A frame on its way through a diffusion model.
@@ -23,8 +22,9 @@ public:
         : model_(model),
           settings_(settings),
           plan_(plan_tiles(background.width, background.height, model.cell(), model.unit(), settings.tiles)),
-          steps_(model.first_stage ? ddim_steps(model.config.diffusion, settings.steps, settings.eta)
-                                   : std::vector<DdimStep>()),
+          steps_(model.config.kind == ModelConfig::Kind::diffusion
+                     ? ddim_steps(model.config.diffusion, settings.steps, settings.eta)
+                     : std::vector<DdimStep>()),
           count_(total_tiles(), progress),
           width_(background.width),
           height_(background.height) {
@@ -37,9 +37,9 @@ public:
 
 private:
     int total_tiles() const {
-        if (!model_.first_stage) return plan_.count();
+        if (steps_.empty()) return plan_.count();
         const int passes = int(steps_.size()) * (model_.guide ? 2 : 1);
-        return plan_.count() * (passes + 2 + (settings_.anchor_latents ? 1 : 0));
+        return plan_.count() * (passes + (!model_.first_stage ? 0 : settings_.anchor_latents ? 3 : 2));
     }
 
     /// Fills background_ [1, 3, h, w] in -1..1 and coverage_ [1, 1, h, w] in 0..1 of the padded frame: reflected beyond
@@ -72,7 +72,7 @@ private:
 
     at::Tensor regression() {
         const at::Tensor time = at::zeros({1}, background_.options());
-        const at::Tensor input = at::cat({background_, coverage_}, 1);
+        const at::Tensor input = at::cat({background_, seen_coverage(coverage_)}, 1);
         return background_ + over(1, [&](int x, int y) { return (*model_.unet)(cut(input, plan_, 1, x, y), time); });
     }
 
@@ -83,7 +83,7 @@ private:
 
     at::Tensor noise(uint32_t step) const {
         const int cell = model_.cell(), width = plan_.x.padded / cell, height = plan_.y.padded / cell;
-        const int channels = int(model_.config.first_stage->code_channels);
+        const int channels = int(model_.config.unet.out_channels);
         const auto values =
             noise_field(settings_.seed, step, channels, -plan_.x.before / cell, -plan_.y.before / cell, width, height);
         return at::tensor(at::ArrayRef<float>(values), at::kFloat)
@@ -92,49 +92,68 @@ private:
     }
 
     /// Predicted noise of the whole frame: of every tile with its context, joined.
-    at::Tensor predicted_noise(const UNet& unet, const at::Tensor& z, const at::Tensor& condition, int time,
+    at::Tensor predicted_noise(const UNet& unet, const at::Tensor& z, const at::Tensor& condition, const DdimStep& s,
                                const at::Tensor& guide) {
         const int cell = model_.cell();
-        const at::Tensor at_time = at::full({1}, double(time), background_.options());
-        return over(cell, [&](int x, int y) {
-            at::Tensor tokens;
-            if (guide.defined())
-                tokens = at::adaptive_avg_pool2d(cut(guide, plan_, cell, x, y), {guide_tokens, guide_tokens})
-                             .flatten(2)
-                             .transpose(1, 2);
+        const at::Tensor at_time = at::full({1}, double(s.time), background_.options());
+        const at::Tensor told = over(cell, [&](int x, int y) {
+            const at::Tensor tokens = guide.defined() ? guide_tokens(cut(guide, plan_, cell, x, y)) : at::Tensor();
             return unet(at::cat({cut(z, plan_, cell, x, y), cut(condition, plan_, cell, x, y)}, 1), at_time, tokens);
         });
+        return model_.config.tells_velocity ? s.noise_share * z + s.signal * told : told;
+    }
+
+    /// Where cells follow what is known, and what that is.
+    struct Known {
+        at::Tensor rain, clean;  // of cells: 1 where they are drawn, else 0; latent of the others; undefined: none
+
+        at::Tensor hold(const at::Tensor& z, const DdimStep& s, const at::Tensor& noise) const {
+            if (!rain.defined()) return z;
+            return rain * z + (1 - rain) * (s.next_signal * clean + s.next_noise() * noise);
+        }
+    };
+
+    Known known_cells() {
+        Known known;
+        const int cell = model_.cell();
+        // One cell more than the rain covers, since a cell is decoded with those around it.
+        if (settings_.anchor_latents)
+            known.rain = at::max_pool2d(at::max_pool2d(is_rain(), {cell, cell}), {3, 3}, {1, 1}, {1, 1});
+        if (known.rain.defined())
+            known.clean = model_.first_stage ? encode(background_) : at::zeros({1}, background_.options());
+        return known;
+    }
+
+    /// What the networks are given beside the cells. With a first stage rain is a hole: black, as published.
+    at::Tensor condition() {
+        if (model_.first_stage) return encode((background_ + 1) * (1 - is_rain()) - 1);
+        return at::pixel_unshuffle(at::cat({background_, seen_coverage(coverage_)}, 1), model_.cell());
     }
 
     at::Tensor diffusion() {
-        const int cell = model_.cell();
-        const at::Tensor rain = is_rain();
-        // Rain is a hole in the condition: black, as published.
-        const at::Tensor condition = encode((background_ + 1) * (1 - rain) - 1);
+        const at::Tensor given = condition();
+        const Known known = known_cells();
         at::Tensor guide;
         if (model_.guide) {
-            guide = noise(guide_noise);
+            const at::Tensor start = noise(guide_noise);
+            guide = start;
             for (const DdimStep& s : ddim_steps(model_.config.diffusion, settings_.steps, 0)) {
-                const at::Tensor eps = predicted_noise(*model_.guide, guide, condition, s.time, {});
+                const at::Tensor eps = predicted_noise(*model_.guide, guide, given, s, {});
                 guide = s.x_factor() * guide + s.eps_factor() * eps;
+                if (!model_.first_stage) guide = known.hold(guide, s, start);
             }
-        }
-        at::Tensor clean, cells;
-        if (settings_.anchor_latents) {
-            clean = encode(background_);
-            // One cell more than the rain covers, since a cell is decoded with those around it.
-            cells = at::max_pool2d(at::max_pool2d(rain, {cell, cell}), {3, 3}, {1, 1}, {1, 1});
         }
         const at::Tensor start = noise(0);
         at::Tensor z = start;
         for (size_t i = 0; i < steps_.size(); ++i) {
             const DdimStep& s = steps_[i];
-            const at::Tensor eps = predicted_noise(*model_.unet, z, condition, s.time, guide);
+            const at::Tensor eps = predicted_noise(*model_.unet, z, given, s, guide);
             z = s.x_factor() * z + s.eps_factor() * eps;
             if (s.sigma > 0) z = z + s.sigma * noise(uint32_t(i) + 1);
-            if (clean.defined()) z = cells * z + (1 - cells) * (s.next_signal * clean + s.next_noise() * start);
+            z = known.hold(z, s, start);
         }
-        return over(1, [&](int x, int y) { return model_.first_stage->decode(cut(z, plan_, cell, x, y)); });
+        if (!model_.first_stage) return background_ + at::pixel_shuffle(z, model_.cell());
+        return over(1, [&](int x, int y) { return model_.first_stage->decode(cut(z, plan_, model_.cell(), x, y)); });
     }
 
     /// The frame without its border, -1..1 to 0..1.
@@ -175,9 +194,13 @@ Image<Rgba8> synthesize(const RainModel& model, const Image<Rgba8>& background, 
     if (settings.steps < 1 || settings.steps > model.config.diffusion.times)
         throw usage_error("--steps", fmt::format("is not valid (got {}, expected 1 to {})", settings.steps,
                                                  model.config.diffusion.times));
-    const at::NoGradGuard no_gradients;
+    const c10::NoGradGuard no_gradients;
     Frame frame(model, background, coverage, settings, progress);
-    return blend(frame.predict(), background, coverage, settings.blend);
+    BlendSettings how = settings.blend;
+    // Only a first stage draws the picture anew, so that its colours are off and its rims show; and only such a model
+    // does not see how much of a pixel a streak covers.
+    if (!model.first_stage) how.soft = how.anchor_colors = false;
+    return blend(frame.predict(), background, coverage, how);
 }
 
 }  // namespace pluvia

@@ -1,6 +1,7 @@
-// Training of the regression network: from clean picture and streak coverage to the change that rain makes, judged
-// where there is rain. Every crop is a pure function of seed and step, so training that was interrupted goes on as if
-// it had not been. Which pictures and files is decided by the caller.
+// Training of the two kinds of model, on pairs of clean and rainy pictures. Regression: from clean picture and streak
+// coverage to the change that rain makes, judged where there is rain. Diffusion: a guiding model that draws the
+// streaks' light and a main model that draws the change and looks at the guide, both from noise. Which pictures and
+// files is decided by the caller.
 #pragma once
 
 #include "renderer/core/rgb.h"
@@ -13,36 +14,43 @@
 
 namespace pluvia {
 
-/// Pictures of one size: clean, streak coverage, and the truth.
+/// Pictures of one size.
 struct TrainingPair {
     Image<Rgba8> background;
-    Image<uint8_t> coverage;
-    Image<Rgba8> rainy;
+    Image<Rgba8> layer;       // light of the streaks; of it only diffusion's guide learns
+    Image<uint8_t> coverage;  // of the streaks
+    Image<Rgba8> rainy;       // the truth
 };
 
 struct TrainingSettings {
-    int64_t channels = 16;
-    std::vector<int64_t> multipliers = {1, 2, 4, 4};
-    int batch = 8;                // crops a step
-    int crop = 128;               // pixels of a side, a multiple of what the UNet halves
-    double learning_rate = 2e-3;  // falls to nothing as a cosine over all steps
+    ModelConfig::Kind kind = ModelConfig::Kind::regression;
+    int64_t channels = 16;             // of the network; diffusion's guide has half of them
+    std::vector<int64_t> multipliers;  // empty: 1, 2, 4, 4, and 1, 2, 2 of a diffusion model
+    int batch = 8;                     // crops a step
+    int crop = 128;                    // pixels of a side, a multiple of what the UNet halves
+    double learning_rate = 2e-3;       // falls to nothing as a cosine over all steps
     int steps = 4000;
     uint64_t seed = 0;
     std::string device = "cpu";
 };
 
-/// Adam with decoupled weight decay, and a running mean of the weights that is the result.
-/// Source: Loshchilov and Hutter 2019.
+/// Optimises by Adam (adam.h); the result is a running mean of the weights.
 class Trainer {
 public:
     /// Throws Error (usage) for settings out of range, (input) for pictures smaller than a crop or of different sizes.
-    Trainer(std::vector<TrainingPair> pairs, const TrainingSettings& settings);
+    Trainer(const std::vector<TrainingPair>& pairs, const TrainingSettings& settings);
     ~Trainer();
 
+    /// Begins with the weights of a model instead of random ones. Throws Error (input) when the networks differ.
+    void start_from(const std::string& model);
+
     int step() const;  // how many are done
-    /// Returns the loss: mean squared difference of display values (0..1) over pixels with rain, before the step.
-    /// Throws Error (render_failed) when it is not finite.
-    double train_step();
+    /// Does not wait for the device.
+    void train_step();
+    /// Losses of the steps since the last call. Regression: mean squared difference of display values (0..1) over
+    /// pixels with rain, before the step. Diffusion: of both models together, see losses.h. Throws Error
+    /// (render_failed) when one is not finite.
+    std::vector<double> take_losses();
 
     /// All that is needed to go on. load() throws Error (input) when the file was saved with other settings.
     void save(const std::string& path) const;
