@@ -3,7 +3,8 @@
 Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED
        [FRAME.json]]
 ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
-instead of the file's. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+instead of the file's. Materials named "lambert..." become Diffuse BSDFs: the importer's Principled BSDF scatters as
+Disney's diffuse does, more at grazing angles. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
 """
 import json
 import sys
@@ -21,6 +22,14 @@ seed = int(arguments[6]) if len(arguments) > 6 else 0
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=scene_file)
+for material in bpy.data.materials:
+    if material.name.startswith("lambert"):
+        nodes = material.node_tree.nodes
+        principled = next(n for n in nodes if n.type == "BSDF_PRINCIPLED")
+        output = next(n for n in nodes if n.type == "OUTPUT_MATERIAL")
+        diffuse = nodes.new("ShaderNodeBsdfDiffuse")
+        diffuse.inputs["Color"].default_value = principled.inputs["Base Color"].default_value
+        material.node_tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
 scene = bpy.context.scene
 scene.render.engine = "CYCLES"
 cycles = scene.cycles

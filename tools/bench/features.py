@@ -33,7 +33,7 @@ def material(base=None, **extensions):
     return made
 
 
-MATT = material(specular={"specularFactor": 0})
+MATT = dict(material(specular={"specularFactor": 0}), name="lambert")
 RED = {"baseColorFactor": [0.6, 0.05, 0.03, 1]}
 SPHERES = {
     "plastic": material(dict(RED, roughnessFactor=0.4)),
@@ -179,7 +179,7 @@ def make_files(folder):
         # Around the feature there are Lambert surfaces, which both programs have alike.
         draft.quad([-4, 0, 4], [8, 0, 0], [0, 0, -8], [0, 1, 0], MATT)
         draft.quad([-4, 0, -2], [8, 0, 0], [0, 4, 0], [0, 0, 1],
-                   material({"baseColorFactor": [0.3, 0.4, 0.5, 1]}, specular={"specularFactor": 0}))
+                   dict(material({"baseColorFactor": [0.3, 0.4, 0.5, 1]}, specular={"specularFactor": 0}), name="lambert wall"))
         if name in PLACES:
             draft.sphere([0, 0, 0], 1, made, PLACES[name])
         else:
