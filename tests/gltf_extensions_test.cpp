@@ -113,8 +113,9 @@ TEST_CASE("anisotropy follows the mesh's tangents, turned by its rotation and it
         expect(std::atan(2.0f) * 180 / pi, 0.5f);
     }
     SUBCASE("from texture coordinates where the file has no tangents") {
-        attributes["TEXCOORD_0"] = draft.add_floats({0, 1, 0, 0, 1, 1}, "VEC2");  // u grows along +y, v along -x
-        expect(90 + 60, 0.5f);
+        attributes["TEXCOORD_0"] =
+            draft.add_floats({0, 1, 0, 0, 1, 1}, "VEC2");  // u grows along +y, upwards in the picture is +x
+        expect(90 - 60, 0.5f);
     }
     SUBCASE("by a texture, whose blue is a share of the strength") {
         attributes["TANGENT"] = draft.add_floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");

@@ -68,12 +68,13 @@ SPHERES["mirrored"] = SPHERES["plastic"]
 
 # What is different in the two programs, where their difference is larger than the noise.
 EXPLAINED = {
-    "plastic": "Pluvia's dielectric returns what its microfacets scatter more than once and darkens its base by what the "
-               "coat takes, as glTF has it; Blender 3.4's Principled adds the lobes",
-    "metal": "Pluvia returns what rough metal scatters more than once; glTF's importer leaves Cycles at single scattering",
-    "cloth": "the sheen of Blender 3.4 is another model (Disney's), and its importer has no roughness for it",
-    "frosted_window": "glTF's transmission is a thin sheet; Cycles takes the sheet for the surface of a body of glass",
-    "window": "likewise, so that it mirrors once and bends light",
+    "plastic": "the base of Blender 3.4's Principled BSDF is Disney's diffuse, brighter towards the rim",
+    "car_paint": "Principled's clear coat reflects a quarter of what one of index 1.5 does; its base is Disney's diffuse",
+    "cloth": "the sheen of Blender 3.4 is Disney's, without the roughness that the file states; likewise its base",
+    "frosted_window": "Cycles takes the thin sheet of glTF for the surface of a body of glass and bends what is seen",
+    "window": "likewise",
+    "cut_leaves": "the importer leaves alpha as it is: Cycles blends what the mask would cut",
+    "neon": "Cycles multiplies the picture of emission by its alpha, which glTF has it not do",
 }
 
 

@@ -14,12 +14,12 @@ namespace {
 
 // An alias may repeat a tree that holds aliases itself, or the tree that it stands in.
 constexpr int max_depth = 50;
-constexpr size_t max_size = 10'000'000;  // nodes and characters
+constexpr size_t max_size = 4'000'000, node_size = 32;  // of all texts together, a node counted as so many characters
 
 ConfigNode converted(const YAML::Node& node, const std::string& path, int depth, size_t& size) {
     ConfigNode result;
     result.line = node.Mark().line + 1;
-    size += 1 + (node.IsScalar() ? node.Scalar().size() : 0);
+    size += node_size + (node.IsScalar() ? node.Scalar().size() : 0);
     if (depth > max_depth || size > max_size)
         throw usage_error(fmt::format("{}:{}", path, result.line),
                           fmt::format("is nested too deep or repeats itself (expected at most {} levels and {} MB)",
