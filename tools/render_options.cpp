@@ -35,15 +35,15 @@ void add_rain_options(CLI::App& command, RenderOptions& o) {
         ->capture_default_str()
         ->group(rain);
     command
-        .add_option(
-            "--streak-distance", o.streak_distance,
-            "paper: drops beyond this many metres are drawn as wide as at it, up to 20 times as far; 1.78 = the "
-            "published code, 0 = true width")
+        .add_option("--streak-distance", o.streak_distance,
+                    "paper: drops beyond this many metres are drawn as wide as at it and 3 pixels at least, up to 5 "
+                    "times as far; 1.78 = the "
+                    "published code, 0 = true width")
         ->capture_default_str()
         ->group(rain);
     command
         .add_option("--streak-share", o.streak_share,
-                    "paper: share of the drops that is drawn; 0.043 = the published code")
+                    "paper: share of the drops that is drawn; 0.024 = the published code's of drops wide enough")
         ->capture_default_str()
         ->group(rain);
     command

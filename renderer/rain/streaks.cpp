@@ -61,6 +61,12 @@ double widening(const RainSettings& settings, double depth) {
     return settings.painted_distance > 0 ? std::max(1.0, depth / settings.painted_distance) : 1.0;
 }
 
+/// The same of a drop that is drawn: its streak is painted_width pixels wide at least.
+double painted_widening(const RainSettings& settings, const View& view, double diameter, double depth) {
+    if (settings.painted_distance <= 0) return 1;
+    return std::max(widening(settings, depth), painted_width * depth / (diameter * view.focal_pixels));
+}
+
 double farthest_depth(const View& view, const RainSettings& settings, const SizeClass& size) {
     const double depth = size.d2 * view.focal_pixels / settings.min_width_pixels, painted = settings.painted_distance;
     return painted > 0 && depth >= painted ? painted_reach * painted : depth;
@@ -77,14 +83,13 @@ double widened(double tangent, double angle) {
 }
 
 SearchRegion search_region(const View& view, const RainSettings& settings, const SizeClass& size) {
-    const double exposure = view.exposure_time;
-    const double radius = size.d2 / 2 * widening(settings, farthest_depth(view, settings, size));
+    const double exposure = view.exposure_time, depth = farthest_depth(view, settings, size);
+    const double radius = size.d2 / 2 * painted_widening(settings, view, size.d2, depth);
     const Vec3d velocity = settings.wind - view.velocity;
     const Vec3d slow = velocity - Vec3d(0, fall_speed(size.d1), 0), fast = velocity - Vec3d(0, fall_speed(size.d2), 0);
     // Largest speed against a direction: what a drop may be outside in the beginning and still come in.
     const auto inwards = [&](Vec3d normal) { return std::max(-dot(normal, slow), -dot(normal, fast)); };
 
-    const double depth = farthest_depth(view, settings, size);
     const double depth_reached = depth + exposure * std::max(length(slow), length(fast));
     // A ray from the rim of the lens passes a point at depth z this far from where the central ray passes it.
     const double beside = view.lens_radius * (std::max(1.0, std::abs(1 - depth_reached / view.focus_distance)) +
@@ -229,7 +234,8 @@ std::vector<Streak> find_streaks(const View& view, const RainSettings& settings)
             const auto keep = [&](const Drop& drop) {
                 const double depth = mid_depth(drop);
                 if (is_streak(drop, depth) && region.touches(drop.position, {}))
-                    found[block].push_back(streak_of(drop, population, view, widening(settings, depth)));
+                    found[block].push_back(
+                        streak_of(drop, population, view, painted_widening(settings, view, drop.diameter, depth)));
             };
             visit_drops(population, size_class, index, view.shutter_open, max_intensity, least_diameter, keep);
         }

@@ -23,11 +23,13 @@ struct RainSettings {
     double lowest_ground = 0;        // metres, world y: there are drops from here to rain_height above
     double near = 0.1;               // metres of view depth: drops and medium begin here
     // As "Learning from Rendering" draws streaks, and not as they are:
-    double painted_distance = 0;  // metres: farther drops are as wide as if they were this far, up to painted_reach
-                                  // times as far, and there are none beyond; 0 = true width
+    double painted_distance = 0;  // metres: farther drops are as wide as if they were this far and painted_width at
+                                  // least, up to painted_reach times as far, and there are none beyond; 0 = true width
     double share = 1;             // of the drops, whatever their size
 };
-constexpr double painted_reach = 20;
+/// Both as seen in HRI: its quads are at least so many pixels wide (the published code's smallest box), and with drops
+/// of its density its pictures have as many streaks as there are drops in 9 m.
+constexpr double painted_width = 3, painted_reach = 5;
 
 /// A falling drop relative to the camera during one exposure. View axes: x right, y up, z view depth. Single precision
 /// is enough: relative to the camera it rounds directions by 1e-7, a few 1e-4 pixels, and that the same for all rays.

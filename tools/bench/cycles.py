@@ -1,10 +1,10 @@
 """Renders a glTF file in Blender's Cycles with an equirectangular environment, as the partner of `pluvia render`.
 
 Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED
-       [FRAME.json]]
+       [FRAME.json]] [--lambert]
 ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
-instead of the file's. Materials named "lambert..." become Diffuse BSDFs: the importer's Principled BSDF scatters as
-Disney's diffuse does, more at grazing angles. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+instead of the file's. --lambert: what does not glow reflects as Lambert's law has it; without, only materials named
+"lambert..." do. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
 """
 import json
 import sys
@@ -17,19 +17,13 @@ import bpy
 from mathutils import Matrix
 
 arguments = sys.argv[sys.argv.index("--") + 1 :]
+lambert = "--lambert" in arguments
+arguments = [a for a in arguments if a != "--lambert"]
 scene_file, out, width, height, samples, environment = arguments[:6]
 seed = int(arguments[6]) if len(arguments) > 6 else 0
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=scene_file)
-for material in bpy.data.materials:
-    if material.name.startswith("lambert"):
-        nodes = material.node_tree.nodes
-        principled = next(n for n in nodes if n.type == "BSDF_PRINCIPLED")
-        output = next(n for n in nodes if n.type == "OUTPUT_MATERIAL")
-        diffuse = nodes.new("ShaderNodeBsdfDiffuse")
-        diffuse.inputs["Color"].default_value = principled.inputs["Base Color"].default_value
-        material.node_tree.links.new(diffuse.outputs[0], output.inputs["Surface"])
 scene = bpy.context.scene
 scene.render.engine = "CYCLES"
 cycles = scene.cycles
@@ -68,6 +62,25 @@ else:
     picture = world.node_tree.nodes.new("ShaderNodeTexEnvironment")
     picture.image = bpy.data.images.load(environment)
     world.node_tree.links.new(picture.outputs[0], background.inputs[0])
+
+
+def make_lambert(tree):
+    for old in [n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"]:
+        glow, color = old.inputs["Emission"], old.inputs["Base Color"]
+        if glow.links or max(glow.default_value[:3]) > 0:
+            continue
+        plain = tree.nodes.new("ShaderNodeBsdfDiffuse")
+        plain.inputs["Color"].default_value = color.default_value
+        for there, here in ((color, plain.inputs["Color"]), (old.inputs["Normal"], plain.inputs["Normal"])):
+            for link in there.links:
+                tree.links.new(link.from_socket, here)
+        for link in list(old.outputs["BSDF"].links):
+            tree.links.new(plain.outputs["BSDF"], link.to_socket)
+
+
+for material in bpy.data.materials:
+    if material.use_nodes and (lambert or material.name.startswith("lambert")):
+        make_lambert(material.node_tree)
 
 start = time.time()
 bpy.ops.render.render(write_still=True)
