@@ -55,10 +55,10 @@ SHEETS = {
     "leaves": material({"baseColorTexture": {"index": 0}}, alphaMode="BLEND"),
     "cut_leaves": material({"baseColorTexture": {"index": 0}}, alphaMode="MASK", alphaCutoff=0.4),
     "neon": dict(material({"baseColorFactor": [0, 0, 0, 1]}, emissiveFactor=[1, 1, 1],
-                          emissive_strength={"emissiveStrength": 3}), emissiveTexture={"index": 0}),
+                          emissive_strength={"emissiveStrength": 3}), emissiveTexture={"index": 2}),
     "bumps": dict(material({"baseColorFactor": [0.6, 0.6, 0.6, 1], "roughnessFactor": 0.4}),
                   normalTexture={"index": 1, "scale": 0.8}),
-    "second_uv": material({"baseColorTexture": {"index": 0, "texCoord": 1, "extensions": {
+    "second_uv": material({"baseColorTexture": {"index": 2, "texCoord": 1, "extensions": {
         "KHR_texture_transform": {"offset": [0.3, 0.1], "rotation": 0.5, "scale": [2, 1.5]}}}}),
     "painted": material({"baseColorFactor": [1, 1, 1, 1]}),
 }
@@ -74,18 +74,18 @@ EXPLAINED = {
     "frosted_window": "Cycles takes the thin sheet of glTF for the surface of a body of glass and bends what is seen",
     "window": "likewise",
     "cut_leaves": "the importer leaves alpha as it is: Cycles blends what the mask would cut",
-    "neon": "Cycles multiplies the picture of emission by its alpha, which glTF has it not do",
 }
 
 
-def leaf_texture(size=64):
-    """Green blades on what is clear; alpha falls off towards the edge."""
+def leaf_texture(opaque=False, size=64):
+    """Green blades on what is clear; alpha falls off towards the edge. Opaque for where glTF ignores alpha: Cycles does not."""
     rows = []
     for y in range(size):
         row = []
         for x in range(size):
             u, v = (x + 0.5) / size * 4 % 1 - 0.5, (y + 0.5) / size * 4 % 1 - 0.5
-            row.append((60 + 3 * x, 190 - y, 50, max(0, min(255, round(255 * (1.25 - math.hypot(2.2 * u, 2.2 * v + u)))))))
+            alpha = max(0, min(255, round(255 * (1.25 - math.hypot(2.2 * u, 2.2 * v + u)))))
+            row.append((60 + 3 * x, 190 - y, 50 + (u > v) * 150, 255) if opaque else (60 + 3 * x, 190 - y, 50, alpha))
         rows.append(row)
     return rows
 
@@ -164,8 +164,8 @@ class Draft:
         if used:
             self.root["extensionsUsed"] = sorted(used)
         if '"index"' in text:
-            self.root["images"] = [{"uri": png_uri(leaf_texture())}, {"uri": png_uri(bump_texture())}]
-            self.root["textures"] = [{"source": 0}, {"source": 1}]
+            self.root["images"] = [{"uri": png_uri(rows)} for rows in (leaf_texture(), bump_texture(), leaf_texture(True))]
+            self.root["textures"] = [{"source": i} for i in range(3)]
         self.root = {key: value for key, value in self.root.items() if value != []}
         uri = "data:application/octet-stream;base64," + base64.b64encode(self.bytes).decode()
         self.root["buffers"] = [{"byteLength": len(self.bytes), "uri": uri}]
