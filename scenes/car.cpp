@@ -294,8 +294,7 @@ private:
             add_tube(a_[dark], bar, 0.06f, 8);
             Shape plate;
             add_box(plate, {-0.25f, 0.4f, 0.13f}, {0.25f, 0.51f, 0.145f}, {}, 0.004f);
-            append(a_[p_("white_paint")], plate,
-                   translate({0, 0, z}) * rotate_y(end > 0 ? 0 : pi) * translate({0, 0, end > 0 ? 0 : 0}));
+            append(a_[p_("white_paint")], plate, translate({0, 0, z}) * rotate_y(end > 0 ? 0 : pi));
         }
         if (!c_.taxi_sign) return;
         const int sign = p_("taxi_sign", [](Scene&) {

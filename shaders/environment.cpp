@@ -273,7 +273,7 @@ EnvironmentSample Environment::sample_sky(Vec2 u) const {
     const auto radius = float(std::sqrt(std::max(0.0, (1 - y) * (1 + y))));
     const float across = (float(column.cell) + column.offset) / float(columns_), phi = 2 * pi * across;
     // Of the point that was drawn, not of the direction again: the texels are on their way sooner.
-    const Vec2 uv(across, 0.5f - fast_atan2(float(y), radius) * (1 / pi));
+    const Vec2 uv{across, 0.5f - fast_atan2(float(y), radius) * (1 / pi)};
     return {{-radius * std::cos(phi), float(y), -radius * std::sin(phi)},
             picture_radiance(uv),
             cell_pdf(row.cell, column.cell)};

@@ -12,8 +12,18 @@ namespace {
 constexpr std::array<float, 6> nodes = {0.03376524f, 0.16939531f, 0.38069041f, 0.61930959f, 0.83060469f, 0.96623476f};
 constexpr std::array<float, 6> weights = {0.08566225f, 0.18038079f, 0.23395697f, 0.23395697f, 0.18038079f, 0.08566225f};
 
+/// Mean over azimuths.
 float base_passed(const PreparedMetallicRoughness& base, float mu) {
-    return base.lambert ? 1.0f : base.coat_passed(base.albedo.at(mu));
+    if (base.lambert) return 1;
+    if (!base.anisotropic.used()) return base.coat_passed(base.albedo.at(mu));
+    constexpr int azimuths = 8;
+    const float sine = std::sqrt((1 - mu) * (1 + mu));
+    float sum = 0;
+    for (int i = 0; i < azimuths; ++i) {
+        const float phi = pi * (float(i) + 0.5f) / azimuths;
+        sum += base.coat_passed(base.anisotropic.albedo({sine * std::cos(phi), sine * std::sin(phi), mu}));
+    }
+    return sum / azimuths;
 }
 
 /// What the diffuse base must be scaled by when the coat's transmittances to wo and wi multiply it, so that together

@@ -51,10 +51,21 @@ PreparedMetallicRoughness prepare(const MetallicRoughness& material, Vec3 wo) {
     seen.f0 = mix(coat_color, material.base_color, material.metallic);
     seen.f90 = coat_f90 + (1 - coat_f90) * material.metallic;
     const float roughness = std::max(min_roughness, material.roughness);
-    seen.ggx = Ggx(roughness * roughness);
-    seen.view = GgxView(seen.ggx, wo.z);
-    seen.albedo = GgxAlbedoRow(roughness);
-    const GgxAlbedo albedo = seen.albedo.at(wo.z), average = average_ggx_albedo(roughness);
+    GgxAlbedo average;
+    if (material.anisotropy.strength > 0) {
+        seen.anisotropic = AnisotropicGgx(roughness, material.anisotropy);
+        seen.ggx = Ggx(seen.anisotropic.alpha_along());
+        seen.view.mu = wo.z;
+        seen.view.root = seen.anisotropic.masking_root(wo);
+        seen.albedo = GgxAlbedoRow(std::sqrt(seen.ggx.alpha));
+        average = seen.anisotropic.average_albedo();
+    } else {
+        seen.ggx = Ggx(roughness * roughness);
+        seen.view = GgxView(seen.ggx, wo.z);
+        seen.albedo = GgxAlbedoRow(roughness);
+        average = average_ggx_albedo(roughness);
+    }
+    const GgxAlbedo albedo = seen.albedo_at(wo);
 
     const float coat_multiple = multiple_scattering(coat_f0, coat_f90, average.lost);
     const Rgb coat_multiple_color =
@@ -90,12 +101,14 @@ BsdfValue evaluate(const PreparedMetallicRoughness& seen, Vec3 wi) {
     if (seen.lambert) return {seen.diffuse * wi.z, wi.z / pi};
 
     const Vec3 h = seen.wo + wi;
-    const float density = seen.ggx.density(h);
+    const bool anisotropic = seen.anisotropic.used();
+    const float density = anisotropic ? seen.anisotropic.density(h) : seen.ggx.density(h);
+    const float root = anisotropic ? seen.anisotropic.masking_root(wi) : seen.ggx.masking_root(wi.z);
     const float cos_h = 0.5f * length(h);  // of wo and the half vector, whose length is twice that for unit wo and wi
     const Rgb fresnel = fresnel_schlick(seen.f0, seen.f90, std::min(1.0f, cos_h));
-    const GgxAlbedo albedo = seen.albedo.at(wi.z);
+    const GgxAlbedo albedo = seen.albedo_at(wi);
     const Rgb rest = seen.multiple * albedo.lost + seen.diffuse * seen.coat_passed(albedo);
-    return {(fresnel * (density * visibility(seen.ggx, seen.view, wi.z)) + rest) * wi.z,
+    return {(fresnel * (density * visibility(seen.view, wi.z, root)) + rest) * wi.z,
             seen.specular_chance * pdf_visible_reflection(seen.view, density) +
                 seen.diffuse_chance * pdf_cosine_hemisphere(wi.z) +
                 seen.multiple_chance * seen.albedo.pdf_lost_cosine(wi.z) / (2 * pi)};
@@ -105,14 +118,15 @@ MetallicRoughnessParts evaluate_parts(const PreparedMetallicRoughness& seen, Vec
     if (seen.wo.z <= 0 || wi.z <= 0) return {};
     const BsdfValue whole = evaluate(seen, wi);
     if (seen.lambert) return {Rgb(0), whole.f_cos, whole.pdf};
-    const Rgb diffuse = seen.diffuse * (seen.coat_passed(seen.albedo.at(wi.z)) * wi.z);
+    const Rgb diffuse = seen.diffuse * (seen.coat_passed(seen.albedo_at(wi)) * wi.z);
     const Rgb s = whole.f_cos - diffuse;
     return {{std::max(0.0f, s.r), std::max(0.0f, s.g), std::max(0.0f, s.b)}, diffuse, whole.pdf};
 }
 
 Vec3 sample_direction(const PreparedMetallicRoughness& seen, float u_lobe, Vec2 u) {
     if (u_lobe < seen.specular_chance) {
-        const Vec3 h = sample_visible_normal(seen.ggx, seen.wo, u);
+        const Vec3 h = seen.anisotropic.used() ? seen.anisotropic.sample_visible_normal(seen.wo, u)
+                                               : sample_visible_normal(seen.ggx, seen.wo, u);
         return h * (2 * dot(seen.wo, h)) - seen.wo;
     }
     if (seen.lambert || u_lobe < seen.specular_chance + seen.diffuse_chance) return sample_cosine_hemisphere(u);

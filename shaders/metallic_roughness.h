@@ -2,9 +2,10 @@
 // of the two by `metallic`. All are reciprocal; nothing is lost to missing multiple scattering: with a white base
 // colour the surface reflects all it receives, unless its dielectric reflection is coloured: what reaches the base is
 // what the strongest channel leaves, so that the base is not seen in the complementary colour (KHR_materials_specular).
-// Conventions: bsdf_sample.h; the microfacet distribution: microfacet.h.
+// Conventions: bsdf_sample.h; the microfacet distributions: microfacet.h, anisotropy.h.
 #pragma once
 
+#include "shaders/anisotropy.h"
 #include "shaders/bsdf_sample.h"
 #include "shaders/microfacet.h"
 
@@ -19,6 +20,7 @@ struct MetallicRoughness {
     float specular = 1;       // strength of the dielectric reflection (KHR_materials_specular), 0 to 1; 0: pure Lambert
     Rgb specular_color = Rgb(1);  // of that reflection at normal incidence, >= 0
     float ior = 1.5f;             // of the dielectric coat, >= 1
+    Anisotropy anisotropy = {};   // of the microfacets
 };
 
 /// A MetallicRoughness seen from one direction: what depends on wo alone is computed once for all wi.
@@ -30,14 +32,17 @@ struct PreparedMetallicRoughness {
     float reflected = 0;  // about the luminance of what returns in all directions, by which layers share out chances
     Rgb f0;               // Schlick's reflectance at normal incidence
     float f90 = 0;        // and at grazing
-    Ggx ggx;
+    Ggx ggx;              // of anisotropic microfacets, `ggx` and `albedo` are as wide as their widest direction
     GgxView view;
     GgxAlbedoRow albedo;
-    Rgb multiple;  // multiple scattering: f = multiple (1 - E(wi)), 1/sr
-    Rgb diffuse;   // diffuse base: f = diffuse (1 - E_d(wi)), 1/sr; Lambert: f itself
+    AnisotropicGgx anisotropic;  // used instead where it is
+    Rgb multiple;                // multiple scattering: f = multiple (1 - E(wi)), 1/sr
+    Rgb diffuse;                 // diffuse base: f = diffuse (1 - E_d(wi)), 1/sr; Lambert: f itself
     // Albedo of the coat as a linear function of the tabulated ones: E_d = constant + lost_slope lost + ...
     float coat_constant = 0, coat_lost_slope = 0, coat_grazing_slope = 0;
 
+    /// Albedos of the microfacets for a direction above the surface.
+    GgxAlbedo albedo_at(Vec3 w) const { return anisotropic.used() ? anisotropic.albedo(w) : albedo.at(w.z); }
     /// 1 - E_d: share that passes the coat to the diffuse base.
     float coat_passed(GgxAlbedo a) const {
         return 1 - coat_constant - coat_lost_slope * a.lost - coat_grazing_slope * a.grazing;

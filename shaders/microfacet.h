@@ -46,8 +46,11 @@ struct GgxView {
 };
 
 /// Height-correlated masking and shadowing G2 / (4 mu_o mu_i). Source: Heitz 2014, equation 99.
+inline float visibility(const GgxView& view, float mu_i, float root_i) {
+    return 0.5f / (view.mu * root_i + mu_i * view.root);
+}
 inline float visibility(const Ggx& ggx, const GgxView& view, float mu_i) {
-    return 0.5f / (view.mu * ggx.masking_root(mu_i) + mu_i * view.root);
+    return visibility(view, mu_i, ggx.masking_root(mu_i));
 }
 
 /// Microfacet normal among those visible from wo. u: uniform in [0, 1)^2.

@@ -46,6 +46,7 @@ Bsdf wet(const MetallicRoughness& dry, const WaterCover& water) {
     m.ior = mixed(dry.ior, water_ior, cover);
     m.specular = mixed(dry.specular, 1, cover);
     m.specular_color = mix(dry.specular_color, Rgb(1), cover);
+    m.anisotropy.strength = dry.anisotropy.strength * (1 - cover);
     return m;
 }
 

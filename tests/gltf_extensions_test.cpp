@@ -61,6 +61,89 @@ TEST_CASE("sheen's colour, roughness and textures are read") {
     CHECK(scene.warnings.empty());
 }
 
+namespace {
+
+/// Where the reflections of a triangle's material are drawn out, seen along `ray`; in the scene, unit.
+Vec3 drawn_out(const Scene& scene, Vec3 ray) {
+    Counters counters;
+    const Surface s = evaluate_surface(scene, {0, 0, 0.25f, 0.25f}, ray, 0, counters);
+    const auto* bsdf = std::get_if<MetallicRoughness>(&s.bsdf);
+    REQUIRE(bsdf);
+    CHECK(counters[Feature::anisotropy] == (bsdf->anisotropy.strength > 0 ? 1 : 0));
+    const Vec2 d = bsdf->anisotropy.direction;
+    return bsdf->anisotropy.strength > 0 ? ShadingBasis(s.shading_normal).to_world({d.x, d.y, 0}) : Vec3();
+}
+
+/// Angle between two axes, whichever way they point; radians.
+float angle_between_axes(Vec3 a, Vec3 b) {
+    return std::acos(std::min(1.0f, std::abs(dot(a, b))));
+}
+
+}  // namespace
+
+TEST_CASE("anisotropy follows the mesh's tangents, turned by its rotation and its texture, on both sides") {
+    const float third = pi / 3;
+    GltfDraft draft =
+        draft_with(with("KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}, {"anisotropyRotation", third}}));
+    auto& attributes = draft.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["NORMAL"] = draft.add_floats({0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const auto expect = [&](float degrees, float strength) {
+        const Scene scene = load(draft);
+        CHECK(scene.warnings.empty());
+        const float angle = degrees * pi / 180;
+        for (const Vec3 ray : {Vec3(0, 0, -1), Vec3(0, 0, 1), normalize(Vec3(0.3f, 0.2f, -1))}) {
+            CAPTURE(degrees);
+            CHECK(angle_between_axes(drawn_out(scene, ray), {std::cos(angle), std::sin(angle), 0}) < 0.01f);
+            Counters counters;
+            const Surface s = evaluate_surface(scene, {0, 0, 0.25f, 0.25f}, ray, 0, counters);
+            CHECK(std::get<MetallicRoughness>(s.bsdf).anisotropy.strength == doctest::Approx(strength));
+        }
+    };
+    SUBCASE("by its rotation, from the file's tangents") {
+        attributes["TANGENT"] = draft.add_floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+        expect(60, 0.5f);
+        attributes["TANGENT"] = draft.add_floats({1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, "VEC4");
+        expect(-60, 0.5f);                             // the bitangent points down
+        draft.root["nodes"][0]["scale"] = {1, -1, 1};  // and in a mirrored object up again
+        expect(60, 0.5f);
+        // A stretched one draws its tangents along: of (1, 1) the direction (1, 2) is left.
+        attributes["TANGENT"] = draft.add_floats({1, 1, 0, 1, 1, 1, 0, 1, 1, 1, 0, 1}, "VEC4");
+        draft.root["nodes"][0]["scale"] = {1, 2, 1};
+        draft.root["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyRotation"] = 0;
+        expect(std::atan(2.0f) * 180 / pi, 0.5f);
+    }
+    SUBCASE("from texture coordinates where the file has no tangents") {
+        attributes["TEXCOORD_0"] =
+            draft.add_floats({0, 1, 0, 0, 1, 1}, "VEC2");  // u grows along +y, upwards in the picture is +x
+        expect(90 - 60, 0.5f);
+    }
+    SUBCASE("by a texture, whose blue is a share of the strength") {
+        attributes["TANGENT"] = draft.add_floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+        attributes["TEXCOORD_0"] = draft.add_floats({0.9f, 0, 0.9f, 0, 0.9f, 0}, "VEC2");
+        Image<Rgba8> image(1, 1);
+        image.pixels = {{128, 255, 51, 255}};  // along +y with a fifth of the strength
+        const auto png = encode_png(image);
+        draft.root["images"] = {
+            {{"uri", data_uri({reinterpret_cast<const char*>(png.data()), png.size()}, "image/png")}}};
+        draft.root["materials"][0]["extensions"]["KHR_materials_anisotropy"]["anisotropyTexture"] = {{"index", 0}};
+        expect(90 + 60, 0.1f);
+    }
+}
+
+TEST_CASE("anisotropy without tangents or texture coordinates is left out, which is said") {
+    const Scene scene = load(draft_with(with("KHR_materials_anisotropy", {{"anisotropyStrength", 0.5}})));
+    CHECK(drawn_out(scene, {0, 0, -1}) == Vec3());
+    CHECK(warns(scene, "mesh \"leaf\": primitive 0 has neither tangents nor the texture coordinates"));
+}
+
+TEST_CASE("a light from pictures inside of the file is named with the reason why it has no effect") {
+    GltfDraft draft = triangle_draft();
+    draft.root["extensionsUsed"] = {"EXT_lights_image_based"};
+    const Scene scene = load(draft);
+    CHECK(warns(scene, "EXT_lights_image_based has no effect: it states its radiance in lux"));
+    CHECK(scene.warnings.size() == 1);
+}
+
 TEST_CASE("a material may be unlit") {
     CHECK(load(draft_with(with("KHR_materials_unlit", Json::object()))).materials[0].unlit);
 }

@@ -33,6 +33,7 @@ Scene scene_of_everything() {
     m.clearcoat_texture = 0, m.clearcoat_roughness_texture = m.clearcoat_normal_texture = 1;
     m.sheen_color = {0.25f, 0.5f, 0.75f}, m.sheen_roughness = 0.5f;
     m.sheen_color_texture = 0, m.sheen_roughness_texture = 1;
+    m.anisotropy = 0.75f, m.anisotropy_rotation = 0.5f, m.anisotropy_texture = 1;
     m.unlit = true;
     m.specular_texture = 1, m.specular_color_texture = 0, m.transmission_texture = 1;
     m.normal_texture.uv_set = m.specular_texture.uv_set = 1;
@@ -143,6 +144,8 @@ TEST_CASE("a scene comes back from its .glb with every setting of its materials"
         CHECK(a.clearcoat_roughness == b.clearcoat_roughness);
         CHECK(a.clearcoat_normal_scale == b.clearcoat_normal_scale);
         CHECK(a.sheen_color == b.sheen_color);
+        CHECK(a.anisotropy == b.anisotropy);
+        CHECK(a.anisotropy_rotation == b.anisotropy_rotation);
         CHECK(a.sheen_roughness == b.sheen_roughness);
         CHECK(a.unlit == b.unlit);
         check_slots(a, b);

@@ -60,6 +60,28 @@ TEST_CASE("inspect tells how each extension of a file is treated") {
     CHECK(j["warnings"].size() == 1);
 }
 
+TEST_CASE("inspect counts the materials of each kind that a render would activate") {
+    GltfDraft draft = triangle_draft();
+    draft.root["materials"] = {{{"extensions",
+                                 {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}},
+                                  {"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}}}}},
+                               {{"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.5}}}}}},
+                               {{"extensions", {{"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 0}}}}}}},
+                               {{"extensions", {{"KHR_materials_unlit", Json::object()}}}},
+                               {{"extensions",
+                                 {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                                  {"KHR_materials_volume", {{"thicknessFactor", 1}}}}}},
+                               {{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}};
+    const auto j = inspect(draft)["requires"];
+    CHECK(j["clearcoat_materials"] == 2);
+    CHECK(j["anisotropic_materials"] == 1);
+    CHECK(j["sheen_materials"] == 1);
+    CHECK(j["unlit_materials"] == 1);
+    CHECK(j["transmitting_materials"] == 2);
+    CHECK(j["volume_materials"] == 1);
+    CHECK(j["emissive_materials"] == 0);
+}
+
 TEST_CASE("the memory of a scene counts a mesh once however often it is placed") {
     GltfDraft draft;
     const int mesh = draft.add_triangle_mesh();

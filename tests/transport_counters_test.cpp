@@ -25,13 +25,30 @@ int add_texture(Scene& scene, Rgba8 texel) {
 
 TEST_CASE("a plain scene calls no feature that it lacks") {
     const Counters c = count(plain(), Environment::uniform(Rgb(1)), {.samples = 2});
-    for (const Feature feature :
-         {Feature::texture,          Feature::normal_map,   Feature::vertex_color, Feature::alpha,
-          Feature::emissive_surface, Feature::pane,         Feature::frosted_pane, Feature::glass,
-          Feature::volume,           Feature::clearcoat,    Feature::sheen,        Feature::unlit,
-          Feature::local_light,      Feature::lens,         Feature::streak_test,  Feature::streak_hit,
-          Feature::streak_path,      Feature::paper_streak, Feature::medium_point, Feature::medium_path,
-          Feature::medium_lamp,      Feature::label,        Feature::matte}) {
+    for (const Feature feature : {Feature::texture,
+                                  Feature::normal_map,
+                                  Feature::vertex_color,
+                                  Feature::alpha,
+                                  Feature::emissive_surface,
+                                  Feature::pane,
+                                  Feature::frosted_pane,
+                                  Feature::glass,
+                                  Feature::volume,
+                                  Feature::clearcoat,
+                                  Feature::sheen,
+                                  Feature::anisotropy,
+                                  Feature::unlit,
+                                  Feature::local_light,
+                                  Feature::lens,
+                                  Feature::streak_test,
+                                  Feature::streak_hit,
+                                  Feature::streak_path,
+                                  Feature::paper_streak,
+                                  Feature::medium_point,
+                                  Feature::medium_path,
+                                  Feature::medium_lamp,
+                                  Feature::label,
+                                  Feature::matte}) {
         CAPTURE(feature_names[size_t(feature)]);
         CHECK(c[feature] == 0);
     }
@@ -86,6 +103,10 @@ TEST_CASE("each feature is called once a scene has it") {
         });
     check(Feature::clearcoat, [](Scene& s) { s.materials[0].clearcoat = 1; });
     check(Feature::sheen, [](Scene& s) { s.materials[0].sheen_color = Rgb(1); });
+    check(Feature::anisotropy, [](Scene& s) {
+        for (Material& m : s.materials) m.anisotropy = 0.5f;
+        for (Mesh& m : s.meshes) m.uvs.assign({{0, 0}, {1, 0}, {1, 1}, {0, 1}}), m.uvs.resize(m.positions.size());
+    });
     check(Feature::unlit, [](Scene& s) { s.materials[0].unlit = true; });
     View view = court_view(32, 16);
     view.lens_radius = 0.01;

@@ -24,7 +24,8 @@ double megabytes(size_t bytes) {
 /// What a render would activate: numbers of the parts that need it.
 Json features(const Scene& scene) {
     Json j;
-    int textured = 0, normal_mapped = 0, masked = 0, blended = 0, emissive = 0, panes = 0, colored = 0;
+    int textured = 0, normal_mapped = 0, masked = 0, blended = 0, emissive = 0, colored = 0;
+    int transmitting = 0, bodies = 0, coated = 0, sheen = 0, anisotropic = 0, unlit = 0;
     for (const Material& m : scene.materials) {
         bool any = false;
         Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) { any = any || slot.used(); });
@@ -33,12 +34,16 @@ Json features(const Scene& scene) {
         masked += m.alpha_mode == AlphaMode::mask;
         blended += m.alpha_mode == AlphaMode::blend;
         emissive += m.emits();
-        panes += m.transmission > 0;
+        transmitting += m.transmission > 0, bodies += m.has_volume();
+        coated += m.clearcoat > 0, sheen += !is_black(m.sheen_color), anisotropic += m.anisotropy > 0;
+        unlit += m.unlit;
     }
     for (const Mesh& mesh : scene.meshes) colored += !mesh.colors.empty();
     j["textured_materials"] = textured, j["normal_mapped_materials"] = normal_mapped;
     j["alpha_masked_materials"] = masked, j["alpha_blended_materials"] = blended;
-    j["emissive_materials"] = emissive, j["transmitting_materials"] = panes;
+    j["emissive_materials"] = emissive, j["transmitting_materials"] = transmitting;
+    j["volume_materials"] = bodies, j["clearcoat_materials"] = coated, j["sheen_materials"] = sheen;
+    j["anisotropic_materials"] = anisotropic, j["unlit_materials"] = unlit;
     j["vertex_colored_meshes"] = colored;
     j["punctual_lights"] = scene.lights.size();
     j["lamps"] = lamp_count(scene);

@@ -24,6 +24,11 @@ LabelRule read_rule(const std::string& path, const ConfigNode& node) {
         if (entry.value.kind != Kind::scalar) throw fail(entry.line, entry.key + " is not a single value");
         if (entry.key == "nodes") {
             rule.pattern = text;
+            // The library's parser and matcher call themselves for each part of an expression.
+            constexpr size_t longest = 1000;
+            if (text.size() > longest)
+                throw fail(entry.line, fmt::format("nodes is too long (got {} characters, expected at most {})",
+                                                   text.size(), longest));
             try {
                 rule.path = std::regex(text);
             } catch (const std::regex_error& e) {

@@ -77,6 +77,12 @@ void check_density(std::size_t encoded, int width, int height, const std::string
                                      std::to_string(height) + " pixels in " + std::to_string(encoded) + " bytes)");
 }
 
+/// The library puts one message after another, a line each.
+std::string one_line(std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message;
+}
+
 /// A picture in memory, open and of an acceptable size.
 struct Source {
     std::string where;
@@ -90,7 +96,7 @@ struct Source {
         OIIO::ImageSpec ignored, settings;
         settings["oiio:UnassociatedAlpha"] = 1;  // otherwise colour is multiplied by alpha and rounded
         if (!input || !input->set_ioproxy(&memory) || !input->open(std::string("memory.") + name, ignored, settings))
-            throw input_error(where, "cannot be read (" + (input ? input->geterror() : OIIO::geterror()) + ")");
+            throw input_error(where, "cannot be read (" + one_line(input ? input->geterror() : OIIO::geterror()) + ")");
         if (spec().width < 1 || spec().height < 1 || spec().depth != 1)
             throw input_error(where, "is not a flat picture with pixels");
         check_size(where, spec().width, spec().height, 1);
@@ -108,7 +114,7 @@ struct Source {
         std::vector<T> values(std::size_t(spec().width) * std::size_t(spec().height) * std::size_t(count));
         // A truncated JPEG counts as read, with a warning and grey where data is missing.
         if (!input->read_image(0, 0, 0, count, OIIO::BaseTypeFromC<T>::value, values.data()) || input->has_error())
-            throw input_error(where, "is truncated or damaged (" + input->geterror() + ")");
+            throw input_error(where, "is truncated or damaged (" + one_line(input->geterror()) + ")");
         return values;
     }
 };

@@ -291,14 +291,6 @@ Vec3d resting_centre(const NodeTree& tree, const tinygltf::Model& model) {
     return box.empty() ? Vec3d() : (box.lower + box.upper) * 0.5;
 }
 
-/// As rebase(), for a centre of one's own.
-void rebase_to(Scene& scene, Vec3d centre) {
-    for (Instance& instance : scene.instances) instance.scene_from_object.translation += -centre;
-    for (PunctualLight& light : scene.lights) light.position += -centre;
-    for (Camera& camera : scene.cameras) camera.scene_from_camera.translation += -centre;
-    scene.origin += centre;
-}
-
 GltfContents contents_of(const tinygltf::Model& model, const std::string& where) {
     GltfContents contents;
     contents.nodes = int(model.nodes.size());
@@ -352,7 +344,7 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings, GltfConte
     if (animations.empty())
         rebase(scene);
     else
-        rebase_to(scene, resting_centre(tree, model));
+        rebase(scene, resting_centre(tree, model));
     return scene;
 }
 

@@ -34,6 +34,7 @@ public:
         read_specular();
         read_transmission();
         read_layers();
+        read_anisotropy();
         m_.unlit = extension("KHR_materials_unlit") != nullptr;
         if (const auto* old = extension("KHR_materials_pbrSpecularGlossiness")) read_specular_glossiness(old);
         return m_;
@@ -102,6 +103,14 @@ private:
         m_.sheen_color_texture = slots_.read(sheen, "sheenColorTexture");
         m_.sheen_roughness = in_range("sheenRoughnessFactor", number(find(sheen, "sheenRoughnessFactor"), 0), 0, 1);
         m_.sheen_roughness_texture = slots_.read(sheen, "sheenRoughnessTexture");
+    }
+
+    void read_anisotropy() {
+        const auto* anisotropy = extension("KHR_materials_anisotropy");
+        m_.anisotropy = in_range("anisotropyStrength", number(find(anisotropy, "anisotropyStrength"), 0), 0, 1);
+        m_.anisotropy_rotation =
+            in_range("anisotropyRotation", number(find(anisotropy, "anisotropyRotation"), 0), -1000, 1000);
+        m_.anisotropy_texture = slots_.read(anisotropy, "anisotropyTexture");
     }
 
     /// The older workflow is a dielectric whose reflectance is given as a colour, which an infinite index of refraction

@@ -174,10 +174,15 @@ std::vector<Mesh> read_mesh(const tinygltf::Model& model, int index, const Defor
             meshes.pop_back();
             continue;
         }
-        const TextureSlot& normal_map = scene.materials[mesh.material].normal_texture;
-        const auto& uvs = normal_map.uv_set == 1 ? mesh.uvs1 : mesh.uvs;
-        if (normal_map.used() && mesh.tangents.empty() && !mesh.normals.empty() && !uvs.empty())
-            generate_tangents(mesh, uvs);
+        const Material& material = scene.materials[mesh.material];
+        const auto& uvs = material.tangent_slot().uv_set == 1 ? mesh.uvs1 : mesh.uvs;
+        if (!(material.normal_texture.used() || material.anisotropy > 0) || !mesh.tangents.empty()) continue;
+        if (!uvs.empty() && !mesh.normals.empty()) generate_tangents(mesh, uvs);
+        if (uvs.empty() && material.anisotropy > 0)
+            scene.warnings.push_back(fmt::format(
+                "mesh \"{}\": primitive {} has neither tangents nor the texture coordinates that they would "
+                "follow, so its material \"{}\" is the same in all directions",
+                source.name, k, material.name));
     }
     return meshes;
 }

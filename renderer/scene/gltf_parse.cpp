@@ -21,23 +21,15 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::array supported_extensions = {
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_clearcoat",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",
+    "EXT_texture_webp",           "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",        "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",        "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_materials_variants",     "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_texture_transform",
     "MSFT_texture_dds",
 };
 
@@ -156,7 +148,11 @@ tinygltf::Model parse_gltf(const std::string& path, const GltfSettings& settings
     tinygltf::Model model = parse_structs(json, path, warnings);
     restore_indices(model);
     for (const std::string& used : model.extensionsUsed)
-        if (!is_supported_extension(used))
+        if (used == "EXT_lights_image_based")
+            warnings.push_back(
+                "extension EXT_lights_image_based has no effect: it states its radiance in lux and leaves open how its "
+                "pictures store it; light from pictures comes from --environment");
+        else if (!is_supported_extension(used))
             warnings.push_back(fmt::format("extension {} is not supported and has no effect", used));
 
     const UriRules rules{std::filesystem::absolute(path).parent_path().string(), settings.allow_outside};

@@ -89,6 +89,12 @@ private:
             add(sheen, "sheenColorTexture", m_.sheen_color_texture);
             add(sheen, "sheenRoughnessTexture", m_.sheen_roughness_texture);
         }
+        if (m_.anisotropy > 0) {
+            const std::string anisotropy = "KHR_materials_anisotropy";
+            add(anisotropy, "anisotropyStrength", m_.anisotropy);
+            add(anisotropy, "anisotropyRotation", m_.anisotropy_rotation);
+            add(anisotropy, "anisotropyTexture", m_.anisotropy_texture);
+        }
         if (m_.unlit) extensions_["KHR_materials_unlit"];
     }
 

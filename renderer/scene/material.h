@@ -71,9 +71,11 @@ struct Material {
     float clearcoat = 0, clearcoat_roughness = 0;
     Rgb sheen_color = Rgb(0);
     float sheen_roughness = 0;
-    bool unlit = false;                            // shows base_color times Scene::unlit_luminance and reflects nothing
-    Rgb emission;                                  // cd/m2: emissive factor times strength
-    TextureSlot base_color_texture = {};           // sRGB, alpha linear
+    float anisotropy = 0;                 // strength with which reflections are drawn out in one direction, 0 to 1
+    float anisotropy_rotation = 0;        // of that direction from the tangent, radians counter-clockwise
+    bool unlit = false;                   // shows base_color times Scene::unlit_luminance and reflects nothing
+    Rgb emission;                         // cd/m2: emissive factor times strength
+    TextureSlot base_color_texture = {};  // sRGB, alpha linear
     TextureSlot metallic_roughness_texture = {};   // linear: roughness in g, metallic in b
     TextureSlot normal_texture = {};               // linear, tangent space
     TextureSlot emission_texture = {};             // sRGB
@@ -85,6 +87,7 @@ struct Material {
     TextureSlot clearcoat_normal_texture = {};     // as normal_texture, which does not move the coat
     TextureSlot sheen_color_texture = {};          // sRGB
     TextureSlot sheen_roughness_texture = {};      // linear, in alpha
+    TextureSlot anisotropy_texture = {};           // linear: direction in r and g, strength in b
     float normal_scale = 1, clearcoat_normal_scale = 1;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
@@ -94,6 +97,8 @@ struct Material {
 
     bool emits() const { return !is_black(emission); }
     bool has_volume() const { return transmission > 0 && thickness > 0; }
+    /// Whose texture coordinates tangents follow where a file brings none.
+    const TextureSlot& tangent_slot() const { return normal_texture.used() ? normal_texture : anisotropy_texture; }
     bool is_layered() const { return clearcoat > 0 || !is_black(sheen_color); }
 
     /// Calls visit(slot, name in glTF) for each texture slot of a material.
@@ -111,6 +116,7 @@ struct Material {
         visit(m.clearcoat_normal_texture, "clearcoatNormalTexture");
         visit(m.sheen_color_texture, "sheenColorTexture");
         visit(m.sheen_roughness_texture, "sheenRoughnessTexture");
+        visit(m.anisotropy_texture, "anisotropyTexture");
     }
 };
 

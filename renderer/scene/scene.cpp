@@ -22,8 +22,10 @@ Bounds bounds(const Scene& scene) {
 
 void rebase(Scene& scene) {
     const Bounds box = bounds(scene);
-    if (box.empty()) return;
-    const Vec3d centre = (box.lower + box.upper) * 0.5;
+    if (!box.empty()) rebase(scene, (box.lower + box.upper) * 0.5);
+}
+
+void rebase(Scene& scene, Vec3d centre) {
     for (Instance& instance : scene.instances) instance.scene_from_object.translation += -centre;
     for (PunctualLight& light : scene.lights) light.position += -centre;
     for (Camera& camera : scene.cameras) camera.scene_from_camera.translation += -centre;

@@ -104,6 +104,8 @@ Bounds bounds(const Scene& scene);
 /// Moves the coordinates so that their zero is the centre of the scene: a street a million metres away loses nothing
 /// to float32. Idempotent to rounding.
 void rebase(Scene& scene);
+/// The same for a centre of one's own.
+void rebase(Scene& scene, Vec3d centre);
 
 /// The same street seen by a camera that shows all of it, for files without one.
 Camera framing_camera(const Scene& scene);

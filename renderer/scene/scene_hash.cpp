@@ -43,7 +43,7 @@ public:
         add(m.ior), add(m.transmission), add(m.emission), add(m.normal_scale), add(m.alpha_mode), add(m.alpha_cutoff);
         add(m.double_sided), add(m.lamp), add(m.thickness), add(m.attenuation_color), add(m.attenuation_distance);
         add(m.clearcoat), add(m.clearcoat_roughness), add(m.clearcoat_normal_scale), add(m.sheen_color);
-        add(m.sheen_roughness), add(m.unlit), add(m.wet);
+        add(m.sheen_roughness), add(m.anisotropy), add(m.anisotropy_rotation), add(m.unlit), add(m.wet);
         Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) { add(slot); });
     }
     void add(const Mesh& m) {

@@ -25,6 +25,29 @@ Vec3 coat_normal(const Scene& scene, const Material& material, const PlacedTrian
     return ShadingBasis(shading_normal).to_local(face(n, wo));
 }
 
+/// In the frame of the shading normal; none where the mesh has no tangents.
+Anisotropy anisotropy_at(const Scene& scene, const Material& material, const PlacedTriangle& placed, Vec3 smooth,
+                         Vec3 shading_normal, Counters& counters) {
+    const auto frame = tangent_frame(placed, smooth, material.tangent_slot());
+    if (!frame) return {};
+    Anisotropy result{material.anisotropy, {1, 0}};
+    Vec2 along = result.direction;
+    if (material.anisotropy_texture.used()) {
+        const Vec3 stored = slot_linear(scene, material.anisotropy_texture, placed.triangle);
+        if (stored.x != 0.5f || stored.y != 0.5f) along = {2 * stored.x - 1, 2 * stored.y - 1};
+        result.strength *= stored.z;
+        counters.count(Feature::texture);
+    }
+    if (result.strength <= 0) return {};
+    counters.count(Feature::anisotropy);
+    const float c = std::cos(material.anisotropy_rotation), s = std::sin(material.anisotropy_rotation);
+    const Vec3 direction = frame->x * (c * along.x - s * along.y) + frame->y * (s * along.x + c * along.y);
+    const Vec3 local = ShadingBasis(shading_normal).to_local(direction);
+    const float length = std::hypot(local.x, local.y);
+    if (length > 0) result.direction = {local.x / length, local.y / length};
+    return result;
+}
+
 }  // namespace
 
 Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 direction, float u, Counters& counters) {
@@ -59,6 +82,8 @@ Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 dir
         counters.count(Feature::emissive_surface);
     }
     s.bsdf = bsdf_at(scene, material, t, s.from_front, u, counters);
+    if (auto* base = std::get_if<MetallicRoughness>(&s.bsdf); base && material.anisotropy > 0)
+        base->anisotropy = anisotropy_at(scene, material, placed, smooth, s.shading_normal, counters);
     if (material.has_volume()) s.volume = t.mesh.material;
     if (material.is_layered())
         add_layers(scene, material, t,

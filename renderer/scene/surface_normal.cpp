@@ -26,12 +26,10 @@ Vec3 smooth_normal(const PlacedTriangle& placed) {
     return dot(n, placed.geometric_normal) < 0 ? -n : n;
 }
 
-Vec3 mapped_normal(const Scene& scene, const PlacedTriangle& placed, Vec3 n, const TextureSlot& slot, float scale,
-                   Counters& counters) {
+std::optional<TangentFrame> tangent_frame(const PlacedTriangle& placed, Vec3 n, const TextureSlot& slot) {
     const Triangle& t = placed.triangle;
     const Transform& scene_from_object = placed.scene_from_object;
-    if (!slot.used() || t.uv_set(slot).empty()) return n;
-    counters.count(Feature::normal_map);
+    if (t.mesh.tangents.empty() && t.uv_set(slot).empty()) return std::nullopt;
     const Vec3 p0 = t.mesh.positions[t.corner[0]];
     const Vec3 edge1 = t.mesh.positions[t.corner[1]] - p0, edge2 = t.mesh.positions[t.corner[2]] - p0;
     const Tangent tangent = t.mesh.tangents.empty() ? tangent_from_uvs(t, slot, edge1, edge2)
@@ -41,14 +39,23 @@ Vec3 mapped_normal(const Scene& scene, const PlacedTriangle& placed, Vec3 n, con
                                                               t.mesh.tangents[t.corner[0]].sign};
     Vec3 x = Vec3(scene_from_object.vector(Vec3d(tangent.direction)));
     x = normalize(x - n * dot(x, n));
-    if (!is_finite(x)) return n;  // a triangle whose uv coordinates do not span it
+    if (!is_finite(x)) return std::nullopt;  // a triangle whose uv coordinates do not span it
     // The file's bitangent belongs to the front; n may have been turned to the back or mirrored.
     const Vec3 front = Vec3(scene_from_object.normal(Vec3d(cross(edge1, edge2))));
     const float side = dot(front, n) < 0 ? -1.0f : 1.0f;
-    const Vec3 y = cross(n, x) * (tangent.sign * side);
+    return TangentFrame{x, cross(n, x) * (tangent.sign * side)};
+}
+
+Vec3 mapped_normal(const Scene& scene, const PlacedTriangle& placed, Vec3 n, const TextureSlot& slot, float scale,
+                   Counters& counters) {
+    const Triangle& t = placed.triangle;
+    if (!slot.used() || t.uv_set(slot).empty()) return n;
+    counters.count(Feature::normal_map);
+    const auto frame = tangent_frame(placed, n, slot);
+    if (!frame) return n;
     const Vec3 stored = lookup_linear(scene, slot.texture, t.uv(slot));
     const float sx = (stored.x * 2 - 1) * scale, sy = (stored.y * 2 - 1) * scale;
-    const Vec3 mapped = normalize(x * sx + y * sy + n * std::max(stored.z * 2 - 1, 1e-3f));
+    const Vec3 mapped = normalize(frame->x * sx + frame->y * sy + n * std::max(stored.z * 2 - 1, 1e-3f));
     return dot(mapped, placed.geometric_normal) > 0 ? mapped : n;
 }
 

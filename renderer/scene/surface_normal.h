@@ -3,6 +3,8 @@
 
 #include "renderer/scene/triangle.h"
 
+#include <optional>
+
 namespace pluvia {
 
 /// A triangle's place in the scene, as normals need it.
@@ -15,6 +17,13 @@ struct PlacedTriangle {
 
 /// Unit, on the side of the geometric normal.
 Vec3 smooth_normal(const PlacedTriangle& placed);
+
+/// Unit tangent and bitangent at right angles to `normal`, of the side that is seen.
+struct TangentFrame {
+    Vec3 x, y;
+};
+/// As the mesh has it, or else along growing u and v of the slot's texture coordinates; empty without either.
+std::optional<TangentFrame> tangent_frame(const PlacedTriangle& placed, Vec3 normal, const TextureSlot& slot);
 
 /// `smooth` bent by a normal map; `smooth` itself where the slot is not used or finds no tangents.
 Vec3 mapped_normal(const Scene& scene, const PlacedTriangle& placed, Vec3 smooth, const TextureSlot& slot, float scale,

@@ -5,6 +5,7 @@
 #include "shaders/water_film.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pluvia {
 namespace {
@@ -16,6 +17,17 @@ float smooth_step(float a, float b, float x) {
 
 bool takes_water(const Bsdf& bsdf) {
     return std::holds_alternative<MetallicRoughness>(bsdf) || std::holds_alternative<Layered>(bsdf);
+}
+
+/// The direction of an anisotropic base stays where it was while its frame is turned.
+void turn_frame(Bsdf& bsdf, Vec3 before, Vec3 after) {
+    auto* layered = std::get_if<Layered>(&bsdf);
+    auto* base = layered ? &layered->base : std::get_if<MetallicRoughness>(&bsdf);
+    if (!base || base->anisotropy.strength == 0) return;
+    Vec2& direction = base->anisotropy.direction;
+    const Vec3 turned = ShadingBasis(after).to_local(ShadingBasis(before).to_world({direction.x, direction.y, 0}));
+    const float length = std::hypot(turned.x, turned.y);
+    if (length > 0) direction = {turned.x / length, turned.y / length};
 }
 
 /// Film on a face, by the cosine of its normal with the way up: drops hit walls at a glancing angle, and what is below
@@ -73,6 +85,7 @@ void WetGround::wet(Surface& s, const SurfacePoint& point, Vec3 direction, Count
         const Vec3 coat = ShadingBasis(s.shading_normal).to_world(layered->coat_normal);
         layered->coat_normal = ShadingBasis(n).to_local(normalize(coat + (n - coat) * water.any()));
     }
+    turn_frame(s.bsdf, s.shading_normal, n);
     s.shading_normal = n;
 }
 

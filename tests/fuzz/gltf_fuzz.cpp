@@ -5,41 +5,21 @@
 //     -runs=1000000 FOLDER tests/fuzz/gltf
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
+#include "tests/fuzz/memory_file.h"
 
-#include <unistd.h>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 
 using namespace pluvia;
 
-namespace {
-
-/// In memory where the system has such a folder: a million files should not wait for a disk.
-std::string make_folder() {
-    const std::string base = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
-    const std::string folder = base + "/pluvia_fuzz_" + std::to_string(getpid());
-    std::filesystem::create_directories(folder);
-    static const std::string kept = folder;
-    std::atexit([] {
-        std::error_code ignored;
-        std::filesystem::remove_all(kept, ignored);
-    });
-    return folder;
-}
-
-}  // namespace
-
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
-    static const std::string folder = make_folder();
+    static const MemoryFile text("scene.gltf"), binary("scene.glb");
     const bool is_binary = size >= 4 && std::string(reinterpret_cast<const char*>(bytes), 4) == "glTF";
-    const std::string path = folder + (is_binary ? "/scene.glb" : "/scene.gltf");
-    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes), std::streamsize(size));
+    const MemoryFile& file = is_binary ? binary : text;
+    file.write(bytes, size);
     try {
-        const Scene scene = load_gltf(path, {.time = 0.5});
+        const Scene scene = load_gltf(file.path, {.time = 0.5});
         content_hash(scene);
     } catch (const Error& e) {
         if (e.code() != ExitCode::input) {

@@ -4,30 +4,16 @@
 //   build-fuzz/tests/fuzz/safetensors_fuzz -dict=tests/fuzz/safetensors.dict -max_len=4096 -runs=1000000 FOLDER
 //     tests/fuzz/safetensors
 #include "renderer/core/error.h"
+#include "tests/fuzz/memory_file.h"
 #include "tools/learning/network_config.h"
 
-#include <unistd.h>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 
 using namespace pluvia;
 
 namespace {
-
-/// In memory where the system has such a folder; removed at the end.
-std::string make_file() {
-    const std::string base = std::filesystem::is_directory("/dev/shm") ? "/dev/shm" : "/tmp";
-    static const std::string kept = base + "/pluvia_fuzz_" + std::to_string(getpid()) + ".safetensors";
-    std::atexit([] {
-        std::error_code ignored;
-        std::filesystem::remove(kept, ignored);
-    });
-    return kept;
-}
 
 /// Lets only refusals with exit code 3 pass.
 template <class Action>
@@ -44,9 +30,10 @@ void expect_refusal_or_success(const Action& action) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
-    static const std::string path = make_file();
-    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes), std::streamsize(size));
-    expect_refusal_or_success([] {
+    static const MemoryFile memory("model.safetensors");
+    memory.write(bytes, size);
+    const std::string& path = memory.path;
+    expect_refusal_or_success([&] {
         SafetensorsFile file(path);
         for (const auto& [name, entry] : file.entries())
             expect_refusal_or_success([&] {

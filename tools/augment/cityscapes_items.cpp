@@ -22,7 +22,7 @@ void set_camera(AugmentItem& item, const std::string& path, bool right) {
         if (!(focal > 0) || !(baseline > 0))
             throw input_error(path, fmt::format("has no focal length or baseline (got {:g}, {:g})", focal, baseline));
         item.camera.focal_pixels = focal;
-        item.camera.centre = Vec2(intrinsic.at("u0").get<float>() + 0.5f, intrinsic.at("v0").get<float>() + 0.5f);
+        item.camera.centre = Vec2{intrinsic.at("u0").get<float>() + 0.5f, intrinsic.at("v0").get<float>() + 0.5f};
         item.format.focal_times_baseline = focal * baseline;
         // Pitch turns the camera down (ISO 8855: about the axis to the left).
         const double pitch = extrinsic.at("pitch");

@@ -61,7 +61,7 @@ Transform rigid(const NumberTable& table, const std::string& where) {
 Vec3d set_projection(PictureCamera& camera, const std::vector<double>& p, const std::string& where) {
     if (!(p[0] > 0)) throw input_error(where, fmt::format("has no focal length (got {:g} pixels)", p[0]));
     camera.focal_pixels = p[0];
-    camera.centre = Vec2(float(p[2] + 0.5), float(p[6] + 0.5));  // KITTI's pixel centres are whole numbers
+    camera.centre = Vec2{float(p[2] + 0.5), float(p[6] + 0.5)};  // KITTI's pixel centres are whole numbers
     return {-(p[3] - p[2] * p[11]) / p[0], -(p[7] - p[6] * p[11]) / p[5], -p[11]};
 }
 

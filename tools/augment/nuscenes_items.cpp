@@ -102,7 +102,7 @@ AugmentItem make_item(const Tables& tables, const std::string& root, const Track
     item.rain = tables.samples.at(row.at("sample_token")).at("scene_token");
     const Json& k = tables.calibration(row).at("camera_intrinsic");
     item.camera.focal_pixels = k.at(0).at(0);
-    item.camera.centre = Vec2(k.at(0).at(2).get<float>() + 0.5f, k.at(1).at(2).get<float>() + 0.5f);
+    item.camera.centre = Vec2{k.at(0).at(2).get<float>() + 0.5f, k.at(1).at(2).get<float>() + 0.5f};
     const Transform map_from_camera = tables.world_from_sensor(row);
     Transform from_start = map_from_camera;
     from_start.translation = map_from_camera.translation - tables.world_from_sensor(first).translation;

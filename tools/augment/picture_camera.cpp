@@ -32,7 +32,7 @@ PictureCamera camera_from_json(const Json& json, Vec3d origin, const std::string
         if (json.contains("intrinsics")) {
             const Json& k = json.at("intrinsics");
             camera.focal_pixels = k.at(0).at(0).get<double>();
-            camera.centre = Vec2(k.at(0).at(2).get<float>(), k.at(1).at(2).get<float>());
+            camera.centre = Vec2{k.at(0).at(2).get<float>(), k.at(1).at(2).get<float>()};
         }
         if (json.contains("world_from_camera")) {
             const Json& m = json.at("world_from_camera");
@@ -81,7 +81,7 @@ View picture_view(const PictureCamera& camera, int width, int height, const Augm
     placed.scene_from_camera = camera.world_from_camera;
     View view = make_view(placed, settings);
     view.focal_pixels = focal;
-    if (camera.centre) view.centre_offset = *camera.centre - Vec2(0.5f * float(width), 0.5f * float(height));
+    if (camera.centre) view.centre_offset = *camera.centre - Vec2{0.5f * float(width), 0.5f * float(height)};
     return view;
 }
 

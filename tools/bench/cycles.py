@@ -3,7 +3,8 @@
 Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED
        [FRAME.json]] [--lambert]
 ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
-instead of the file's. --lambert: what does not glow reflects as Lambert's law has it. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+instead of the file's. --lambert: what does not glow reflects as Lambert's law has it; without, only materials named
+"lambert..." do. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
 """
 import json
 import sys
@@ -77,8 +78,8 @@ def make_lambert(tree):
             tree.links.new(plain.outputs["BSDF"], link.to_socket)
 
 
-for material in bpy.data.materials if lambert else ():
-    if material.use_nodes:
+for material in bpy.data.materials:
+    if material.use_nodes and (lambert or material.name.startswith("lambert")):
         make_lambert(material.node_tree)
 
 start = time.time()

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Writes a street that is large: 4 million triangles, 500 MB of decoded textures and 10,000 copies of a tree.
 
 usage: large_street.py OUT.glb [--triangles N] [--textures N] [--copies N]

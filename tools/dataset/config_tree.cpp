@@ -12,9 +12,18 @@
 namespace pluvia {
 namespace {
 
-ConfigNode converted(const YAML::Node& node, const std::string& path) {
+// An alias may repeat a tree that holds aliases itself, or the tree that it stands in.
+constexpr int max_depth = 50;
+constexpr size_t max_size = 4'000'000, node_size = 32;  // of all texts together, a node counted as so many characters
+
+ConfigNode converted(const YAML::Node& node, const std::string& path, int depth, size_t& size) {
     ConfigNode result;
     result.line = node.Mark().line + 1;
+    size += node_size + (node.IsScalar() ? node.Scalar().size() : 0);
+    if (depth > max_depth || size > max_size)
+        throw usage_error(fmt::format("{}:{}", path, result.line),
+                          fmt::format("is nested too deep or repeats itself (expected at most {} levels and {} MB)",
+                                      max_depth, max_size / 1'000'000));
     switch (node.Type()) {
         case YAML::NodeType::Scalar:
             result.kind = ConfigNode::Kind::scalar;
@@ -22,7 +31,7 @@ ConfigNode converted(const YAML::Node& node, const std::string& path) {
             break;
         case YAML::NodeType::Sequence:
             result.kind = ConfigNode::Kind::list;
-            for (const YAML::Node& item : node) result.items.push_back(converted(item, path));
+            for (const YAML::Node& item : node) result.items.push_back(converted(item, path, depth + 1, size));
             break;
         case YAML::NodeType::Map:
             result.kind = ConfigNode::Kind::map;
@@ -34,7 +43,7 @@ ConfigNode converted(const YAML::Node& node, const std::string& path) {
                     if (before.key == key)
                         throw usage_error(fmt::format("{}:{}", path, line),
                                           fmt::format("the key \"{}\" is there already, on line {}", key, before.line));
-                result.entries.push_back({key, line, converted(entry.second, path)});
+                result.entries.push_back({key, line, converted(entry.second, path, depth + 1, size)});
             }
             break;
         default:
@@ -49,7 +58,8 @@ ConfigNode read_config_tree(const std::string& path) {
     std::ifstream file(path);
     if (!file) throw input_error(path, fmt::format("cannot be opened ({})", std::strerror(errno)));
     try {
-        return converted(YAML::Load(file), path);
+        size_t size = 0;
+        return converted(YAML::Load(file), path, 0, size);
     } catch (const YAML::Exception& e) {
         throw usage_error(fmt::format("{}:{}", path, e.mark.line + 1), fmt::format("is not YAML ({})", e.msg));
     }
