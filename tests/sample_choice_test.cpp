@@ -6,14 +6,11 @@
 #include "tools/validate/color_metrics.h"
 #include "tools/validate/known_scenes.h"
 #include "tools/validate/rendered_picture.h"
-#include "tools/validate/running_mean.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace pluvia {
 namespace {
@@ -64,42 +61,6 @@ TEST_CASE("with a target the true error is within a factor of 1.3 of it in 18 of
             CHECK(p.report.samples < most);  // the reference's own error does not matter
         }
         CHECK(near >= 18);
-    }
-}
-
-TEST_CASE("counts that a pilot chooses bias no brightness decile by more than 0.1 %") {
-    const Scene scene = make_court(lambert(Rgb(0.6f)));
-    const Environment world = Environment::uniform(Rgb(0.5f));
-    const View view = court_view(32, 16);
-    RenderSettings settings{.samples = 8192, .seed = 1};
-    const Image<Rgb> truth = colours(render_picture(scene, world, view, settings), "background");
-    std::vector<size_t> order(truth.pixels.size());
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return luminance(truth.pixels[a]) < luminance(truth.pixels[b]); });
-    constexpr int runs = 400, deciles = 10;
-    std::vector<RunningMean> ratios(deciles);
-    int fewest = most_samples, most = 0;
-    for (uint64_t run = 0; run < runs; ++run) {
-        settings.seed = 100 + run;
-        settings.choose_samples = [&](const PixelRenderer& pilot) {
-            return samples_for_error(0.03, pilot, {}, int64_t(view.width) * view.height, settings.seed);
-        };
-        const Picture p = render_picture(scene, world, view, settings);
-        const Image<Rgb> got = colours(p, "background");
-        fewest = std::min(fewest, p.report.samples), most = std::max(most, p.report.samples);
-        for (size_t d = 0; d < deciles; ++d) {
-            double sum = 0, reference = 0;
-            for (size_t i = d * order.size() / deciles; i < (d + 1) * order.size() / deciles; ++i)
-                sum += luminance(got.pixels[order[i]]), reference += luminance(truth.pixels[order[i]]);
-            ratios[d].add(sum / reference);
-        }
-    }
-    CHECK(most > fewest);  // the counts do differ
-    for (size_t d = 0; d < deciles; ++d) {
-        INFO("decile " << d << ": " << ratios[d].mean() << " +- " << ratios[d].standard_error());
-        CHECK(5 * ratios[d].standard_error() < 0.001);  // so that more would be seen
-        CHECK(std::abs(ratios[d].mean() - 1) < 0.001);
     }
 }
 
