@@ -2,6 +2,7 @@
 #include "tests/dataset_fixture.h"
 #include "tools/dataset/item.h"
 #include "tools/dataset/suggestion.h"
+#include "tools/quality.h"
 
 #include <nlohmann/json.hpp>
 
@@ -48,6 +49,21 @@ TEST_CASE("hri.yaml and hri-physical.yaml plan the paper's 2,500 training and 70
             CHECK(scene["test_pairs"] == test);
         }
     }
+}
+
+TEST_CASE("a dataset's quality sets what is not given beside it, in any order, and a scene's counts more") {
+    const TemporaryFolder folder;
+    const auto options = [&](const std::string& yaml, const std::string& of_scene = "") {
+        write_file(folder / "d.yaml", yaml + "rain: [10]\n" + scenes + of_scene);
+        return read_dataset_config(folder / "d.yaml").scenes[0].options;
+    };
+    RenderOptions draft;
+    set_quality(draft, "draft");
+    CHECK(options("quality: draft\n").spp == draft.spp);
+    CHECK(options("spp: 5\nquality: draft\n").spp == 5);
+    CHECK(options("quality: draft\nspp: 5\n").spp == 5);
+    CHECK(options("quality: draft\n", "    quality: standard\n").spp == RenderOptions().spp);
+    CHECK(message_of("quality: best\nrain: [10]\n" + scenes).find("d.yaml:1") == 0);
 }
 
 TEST_CASE("frames of hri.yaml are whole tiles, spread over 24 hours at equal steps, and none has another's noise") {

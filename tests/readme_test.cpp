@@ -56,6 +56,8 @@ TEST_CASE("every command of the README and the demo runs") {
         line = line.substr(0, line.find(" #"));
         // As written but for the size of the picture; of options given twice the last one counts.
         if (line.starts_with("build/pluvia render")) line += " --size 64x32 --spp 1 --overwrite --progress none";
+        if (line.starts_with("build/pluvia validate trade"))
+            line += " --size 16x8 --reference-spp 256 --only bounces --progress none";
         CAPTURE(line);
         const int status = std::system(("cd " + folder.path() + " && " + line + " >log 2>&1").c_str());
         CAPTURE(read_file(folder / "log"));

@@ -2,18 +2,25 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
-#include "renderer/scene/lamps.h"
+#include "renderer/transport/passes.h"
 #include "shaders/streak_files.h"
+#include "tools/frame_in_time.h"
 #include "tools/label_rules.h"
 #include "tools/sample_choice.h"
+#include "tools/scene_light.h"
 #include "tools/streak_cache.h"
+#include "tools/time_limit.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
 namespace pluvia {
+
+namespace fs = std::filesystem;
+
 FrameScene load_frame_scene(const RenderOptions& options) {
     const CameraSettings camera = camera_settings(options);
     GltfContents contents;
@@ -62,13 +69,15 @@ std::shared_ptr<const StreakTextures> streak_textures(const RenderOptions& optio
                                                                     : read_streaks(options.streaks));
 }
 
-RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
-                           const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
-    const Camera camera = find_camera(frame.scene, options.camera);
-    Scene& scene = frame.scene;
-    if (lamp_count(scene) > 0 && !lamps_are_on(options.light, settings.environment)) switch_off_lamps(scene);
-    scene.unlit_luminance = unlit_luminance(settings.ev100, settings.environment);
+namespace {
 
+/// time_limit: seconds; where given, it decides over the samples.
+RenderedFrame render_to_file(FrameScene frame, const RenderOptions& options, const FrameSettings& settings,
+                             const std::string& exr, const std::optional<double>& time_limit,
+                             const ProgressCallback& progress, const BandSink& look) {
+    Scene& scene = frame.scene;
+    prepare_scene(scene, options, settings);
+    const Camera camera = find_camera(scene, options.camera);
     RenderedFrame result{{scene.name, frame.hash, scene.origin, camera.name, make_view(camera, settings.camera),
                           to_json(options), settings.render.rain.intensities_mm_per_h},
                          0,
@@ -92,16 +101,34 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
             writer.emplace(exr, result.header);
             return samples;
         };
-    else
+    else if (!time_limit)
         writer.emplace(exr, result.header);
-    result.report = render(
-        scene, settings.environment, result.header.view, render_settings,
-        [&](const Band& band) {
-            if (look) look(band);
-            if (labels.layers.instance) seen.look(band.ids.back(), band.y, band.width);
-            writer->write(band);
-        },
-        progress);
+    const BandSink write = [&](const Band& band) {
+        if (look) look(band);
+        if (labels.layers.instance) seen.look(band.ids.back(), band.y, band.width);
+        writer->write(band);
+    };
+    if (time_limit) {
+        TimeLimit limit(*time_limit);
+        const NextPass next_pass = [&](int done, const BandPreview& preview) {
+            if (done == 1) {
+                const std::string folder = fs::path(exr).parent_path();
+                // A tenth and 1 % of the limit more, for what a trial does not see: counts, other text, the end.
+                limit.reserve(1.1 * seconds_to_write(result.header, preview, settings.display, folder) +
+                              0.01 * *time_limit);
+            }
+            const int samples = limit.next_pass();
+            if (samples == 0) {
+                result.header.options["spp"] = done;
+                writer.emplace(exr, result.header);
+            }
+            return samples;
+        };
+        result.report = render_in_passes(scene, settings.environment, result.header.view, render_settings, next_pass,
+                                         write, progress);
+    } else {
+        result.report = render(scene, settings.environment, result.header.view, render_settings, write, progress);
+    }
     result.ev100 = settings.ev100 ? *settings.ev100 : writer->background_luminance().auto_ev100();
     writer->finish(result.ev100);
     if (labels.layers.instance) {
@@ -118,6 +145,18 @@ RenderedFrame render_frame(FrameScene frame, const RenderOptions& options, const
         result.objects = objects_json(*labels.objects, seen, extents, moving, view, scene.origin);
     }
     return result;
+}
+
+}  // namespace
+
+RenderedFrame render_frame(FrameScene scene, const RenderOptions& options, const FrameSettings& settings,
+                           const std::string& exr, const ProgressCallback& progress, const BandSink& look) {
+    return render_to_file(std::move(scene), options, settings, exr, {}, progress, look);
+}
+
+RenderedFrame render_frame_in_time(FrameScene scene, const RenderOptions& options, const FrameSettings& settings,
+                                   const std::string& exr, double seconds, const ProgressCallback& progress) {
+    return render_to_file(std::move(scene), options, settings, exr, seconds, progress, {});
 }
 
 PngText display_text(const RenderedFrame& frame) {

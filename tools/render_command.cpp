@@ -1,11 +1,14 @@
 #include "renderer/core/error.h"
 #include "renderer/core/parallel.h"
 #include "tools/commands.h"
-#include "tools/frame_render.h"
+#include "tools/frame_in_time.h"
+#include "tools/option_check.h"
 #include "tools/progress.h"
+#include "tools/time_limit.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -54,9 +57,10 @@ void report(const RenderOptions& options, const RenderReport& r, const DisplayRe
                                  display.depths_beyond);
 }
 
-void render_command(const RenderOptions& options) {
+void render_command(const RenderOptions& options, const std::optional<double>& time_limit) {
     // Everything is checked before anything is computed or written.
     const auto progress_style = Progress::style_from_name(options.progress);
+    if (time_limit) require_option(*time_limit > 0, "time-limit", *time_limit, "above 0 s");
     render_settings(options);  // the number of threads is one of them
     set_thread_count(options.threads);
     const FrameSettings settings(options);
@@ -69,8 +73,12 @@ void render_command(const RenderOptions& options) {
     std::optional<RenderedFrame> frame;
     {
         Progress progress(progress_style, "rendering");
-        frame =
-            render_frame(std::move(scene), options, settings, exr, [&](double done) { return progress.update(done); });
+        frame = time_limit
+                    ? render_frame_in_time(
+                          std::move(scene), options, settings, exr, *time_limit,
+                          [&](double) { return progress.update(std::min(1.0, process_seconds() / *time_limit)); })
+                    : render_frame(std::move(scene), options, settings, exr,
+                                   [&](double done) { return progress.update(done); });
     }
     DisplaySettings display = settings.display;
     display.ev100 = frame->ev100;
@@ -89,6 +97,7 @@ void add_render_command(CLI::App& app) {
     auto* command = app.add_subcommand("render", "one frame of a glTF scene, clean and in the rain");
     auto options = std::make_shared<RenderOptions>();
     add_render_options(*command, *options);
+    auto time_limit = std::make_shared<std::optional<double>>();
     // Of this command alone: the items of a dataset have the counts that its file says.
     command
         ->add_option("--target-error", options->target_error,
@@ -96,7 +105,14 @@ void add_render_command(CLI::App& app) {
                      "clean picture and of the highest intensity's; a pilot chooses, the frame records --spp")
         ->group("Accuracy")
         ->excludes("--spp");
-    command->callback([options] { render_command(*options); });
+    command
+        ->add_option("--time-limit", *time_limit,
+                     "seconds, files included: take as many samples as fit, one at least; the frame records --spp. "
+                     "Sums stay in memory, about 100 bytes a pixel and as many for each intensity")
+        ->group("Accuracy")
+        ->excludes("--spp")
+        ->excludes("--target-error");
+    command->callback([options, time_limit] { render_command(*options, *time_limit); });
 }
 
 }  // namespace pluvia

@@ -1,5 +1,7 @@
 #include "tools/render_options.h"
 
+#include "tools/quality.h"
+
 namespace pluvia {
 namespace {
 
@@ -95,6 +97,14 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
         ->group(camera);
 
     const auto* quality = "Accuracy";
+    // Before --spp: options are looked at in this order, so that samples which are given themselves win.
+    command
+        .add_option_function<std::string>(
+            "--quality", [&o](const std::string& name) { set_quality(o, name); },
+            "draft, standard, high or reference: --spp 16, 64, 256 or 1024 where that is not given; errors and costs "
+            "are "
+            "in the README")
+        ->group(quality);
     command.add_option("--spp", o.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
         .add_option(

@@ -45,8 +45,8 @@ Image<Rgb> layer_of(const std::vector<float>& values, size_t channels, size_t fi
     return image;
 }
 
-/// Trimmed relMSE of one of two independent pictures against the truth, which their mean stands for: each is off from
-/// the truth by half of the square by which they differ.
+/// Trimmed relMSE of one of two independent pictures against the truth: each is off from it by half of the square by
+/// which they differ.
 double error_of_halves(const Image<Rgb>& a, const Image<Rgb>& b, const Image<Rgb>& truth) {
     Image<Rgb> apart = truth;
     for (size_t i = 0; i < apart.pixels.size(); ++i)
@@ -63,19 +63,20 @@ public:
           layers_(judged_layers(intensities)),
           pixels_(std::move(pixels)),
           seed_(seed),
-          sums_(layers_.size(), Image<Rgb>(int(pixels_.size()), 1)) {}
+          sums_(2 * layers_.size(), Image<Rgb>(int(pixels_.size()), 1)) {}
 
     /// Largest error of the layers at so many samples. Counts must differ from call to call.
     double squared_error(int samples) {
         const auto a = values(samples, 0), b = values(samples, 1);
-        total_ += 2 * samples;
+        total_ += samples;
         double largest = 0;
         for (size_t l = 0; l < layers_.size(); ++l) {
             const Image<Rgb> x = layer_of(a, channels_, layers_[l]), y = layer_of(b, channels_, layers_[l]);
-            Image<Rgb> truth = sums_[l];
+            Image<Rgb>&sum_a = sums_[2 * l], &sum_b = sums_[2 * l + 1], truth = sum_a;
             for (size_t i = 0; i < truth.pixels.size(); ++i) {
-                sums_[l].pixels[i] += (x.pixels[i] + y.pixels[i]) * float(samples);
-                truth.pixels[i] = sums_[l].pixels[i] / float(total_);
+                sum_a.pixels[i] += x.pixels[i] * float(samples);
+                sum_b.pixels[i] += y.pixels[i] * float(samples);
+                truth.pixels[i] = truth_of_halves(sum_a.pixels[i], sum_b.pixels[i]) / float(total_);
             }
             largest = std::max(largest, error_of_halves(x, y, truth));
         }
@@ -92,11 +93,16 @@ private:
     std::vector<size_t> layers_;
     std::vector<int64_t> pixels_;
     uint64_t seed_;
-    std::vector<Image<Rgb>> sums_;  // per layer, of all samples so far
-    int total_ = 0;
+    std::vector<Image<Rgb>> sums_;  // per layer and half, of all samples so far
+    int total_ = 0;                 // of a half
 };
 
 }  // namespace
+
+Rgb truth_of_halves(Rgb a, Rgb b) {
+    const auto root = [](float x, float y) { return std::sqrt(std::max(0.0f, x * y)); };
+    return {root(a.r, b.r), root(a.g, b.g), root(a.b, b.b)};
+}
 
 int samples_for_error(double error, const PixelRenderer& render_pixels, const std::vector<double>& intensities,
                       int64_t picture_size, uint64_t seed) {

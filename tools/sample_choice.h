@@ -8,6 +8,11 @@ namespace pluvia {
 
 constexpr int most_samples = 1 << 24;
 
+/// What two independent estimates of a pixel say of the truth by which their error is divided. Its square is expected
+/// of their product; that of their mean is larger where they are noisy, and most where a rare bright sample is what
+/// makes the error: in a narrow lane by day the error of 128 samples came out a third too small.
+Rgb truth_of_halves(Rgb a, Rgb b);
+
 /// error: square root of the trimmed relMSE (tools/validate/color_metrics.h) against infinitely many samples, of the
 /// background and, where it rains, of the rainy picture of the highest intensity, whichever is larger. intensities: of
 /// the layers; picture_size: pixels of the picture; seed: of the picture. 1 to most_samples.

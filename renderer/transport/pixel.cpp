@@ -29,10 +29,10 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
     if (frame.mattes && path.first.instance >= 0) {
         const Instance& instance = frame.mattes->scene.instances[path.first.instance];
         counters.count(Feature::matte);
-        scratch.objects.add(frame.mattes->objects.object_of_instance[path.first.instance]);
-        scratch.materials.add(frame.mattes->scene.meshes[instance.mesh].material);
+        scratch.film.objects.add(frame.mattes->objects.object_of_instance[path.first.instance]);
+        scratch.film.materials.add(frame.mattes->scene.meshes[instance.mesh].material);
     }
-    PixelSums& sums = scratch.sums;
+    PixelSums& sums = scratch.film.sums;
     add(sums.background, path.radiance);
     if (!frame.rain) return;
 
@@ -61,15 +61,18 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
 
 }  // namespace
 
-void add_samples(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {
-    scratch.sums.background = {};
-    scratch.sums.rain.assign(frame.intensity_count(), {});
-    scratch.objects.clear(), scratch.materials.clear();
+void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch) {
+    scratch.film.sums.background = {};
+    scratch.film.sums.rain.assign(frame.intensity_count(), {});
+    scratch.film.objects.clear(), scratch.film.materials.clear();
     if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
+}
+
+void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch, Counters& counters) {
     if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
-        add(scratch.sums.background, frame.picture->radiance.at(x, y) * float(frame.settings.samples));
+        add(scratch.film.sums.background, frame.picture->radiance.at(x, y) * float(end - begin));
     else
-        for (int s = 0; s < frame.settings.samples; ++s) add_sample(frame, x, y, s, scratch, counters);
+        for (int s = begin; s < end; ++s) add_sample(frame, x, y, s, scratch, counters);
 }
 
 void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {
@@ -104,10 +107,10 @@ void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counte
 void write_mattes(const Frame& frame, PixelScratch& scratch) {
     const int samples = frame.settings.samples;
     float* values = scratch.values.data() + frame.first_matte;
-    scratch.objects.write(frame.mattes->object_ids, samples, values);
-    scratch.materials.write(frame.mattes->material_ids, samples, values += cryptomatte_channels);
+    scratch.film.objects.write(frame.mattes->object_ids, samples, values);
+    scratch.film.materials.write(frame.mattes->material_ids, samples, values += cryptomatte_channels);
     values += cryptomatte_channels;
-    for (const RainSums& rain : scratch.sums.rain) {
+    for (const RainSums& rain : scratch.film.sums.rain) {
         const auto coverage = float(rain.coverage / samples);
         for (const float value : {coverage > 0 ? frame.mattes->rain_id : 0.0f, coverage, 0.0f, 0.0f}) *values++ = value;
     }

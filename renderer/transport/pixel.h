@@ -43,9 +43,15 @@ struct Frame {
     size_t intensity_count() const { return settings.rain.intensities_mm_per_h.size(); }
 };
 
+/// What the samples of a pixel add up to.
+struct PixelFilm {
+    PixelSums sums;
+    MatteCounts objects, materials;
+};
+
 /// Buffers that live as long as a tile, so that no pixel allocates.
 struct PixelScratch {
-    PixelSums sums;
+    PixelFilm film;
     CentreDepth depth;
     std::vector<RainSample> rain;
     RainScratch streaks;
@@ -53,11 +59,12 @@ struct PixelScratch {
     std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<float> values;
     std::vector<uint32_t> ids;
-    MatteCounts objects, materials;
 };
 
-/// Sums of all samples of a pixel.
-void add_samples(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters);
+/// Empties the film and finds what the pixel's samples share. Comes before the following.
+void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch);
+/// Adds the samples begin <= i < end to the film.
+void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch, Counters& counters);
 /// Depth, and the labels that the same ray finds, the latter into the values behind the layers of light.
 void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters);
 /// Coverage by objects, materials and rain, into the values behind the labels. Needs frame.mattes.

@@ -2,7 +2,8 @@
 
 #include "renderer/core/parallel.h"
 #include "renderer/transport/band_queue.h"
-#include "renderer/transport/pixel.h"
+#include "renderer/transport/film.h"
+#include "renderer/transport/passes.h"
 #include "renderer/transport/shelter.h"
 
 #include <chrono>
@@ -35,35 +36,108 @@ std::vector<float> render_pixels(const Frame& frame, std::span<const int64_t> pi
         scratch.rain.resize(frame.intensity_count());
         scratch.depth = {0, 0, std::vector<float>(frame.intensity_count(), 0.0f)};
         for (size_t i = size_t(b) * block; i < std::min(pixels.size(), size_t(b + 1) * block); ++i) {
-            add_samples(frame, int(pixels[i] % frame.view.width), int(pixels[i] / frame.view.width), scratch, counters);
-            develop(scratch.sums, scratch.depth, frame.settings.samples, &values[i * channels]);
+            const int x = int(pixels[i] % frame.view.width), y = int(pixels[i] / frame.view.width);
+            begin_pixel(frame, x, y, scratch);
+            add_samples(frame, x, y, 0, frame.settings.samples, scratch, counters);
+            develop(scratch.film.sums, scratch.depth, frame.settings.samples, &values[i * channels]);
         }
     });
     return values;
 }
 
-void render_tile(const Frame& frame, int x_begin, int x_end, Band& band, PixelProgress& progress, Counters& counters) {
+/// The part of a band from x_begin to x_end. film: of samples that are taken already; null: they are taken here.
+void render_tile(const Frame& frame, Film* film, int x_begin, int x_end, Band& band, Counters& counters,
+                 PixelProgress* progress) {
     PixelScratch scratch;
     scratch.rain.resize(frame.intensity_count());
     scratch.values.resize(band.planes.size());
     scratch.ids.resize(band.ids.size());
     for (int y = band.y; y < band.y + band.rows; ++y)
         for (int x = x_begin; x < x_end; ++x) {
-            add_samples(frame, x, y, scratch, counters);
+            begin_pixel(frame, x, y, scratch);
+            if (film)
+                film->exchange(x, y, scratch);
+            else
+                add_samples(frame, x, y, 0, frame.settings.samples, scratch, counters);
             find_centre(frame, x, y, scratch, counters);
-            develop(scratch.sums, scratch.depth, frame.settings.samples, scratch.values.data());
+            develop(scratch.film.sums, scratch.depth, frame.settings.samples, scratch.values.data());
             const size_t pixel = size_t(y - band.y) * band.width + x;
             if (frame.mattes) write_mattes(frame, scratch);
+            if (film) film->exchange(x, y, scratch);
             for (size_t c = 0; c < band.planes.size(); ++c) band.planes[c][pixel] = scratch.values[c];
             for (size_t c = 0; c < band.ids.size(); ++c) band.ids[c][pixel] = scratch.ids[c];
+            if (progress) progress->add_pixel();
+        }
+}
+
+/// Samples begin <= i < end of every pixel of a tile.
+void add_to_tile(const Frame& frame, Film& film, int column, int row, int begin, int end, PixelProgress& progress,
+                 Counters& counters) {
+    PixelScratch scratch;
+    scratch.rain.resize(frame.intensity_count());
+    const int size = frame.settings.tile_size;
+    for (int y = row * size; y < std::min((row + 1) * size, frame.view.height); ++y)
+        for (int x = column * size; x < std::min((column + 1) * size, frame.view.width); ++x) {
+            begin_pixel(frame, x, y, scratch);
+            film.exchange(x, y, scratch);
+            add_samples(frame, x, y, begin, end, scratch, counters);
+            film.exchange(x, y, scratch);
             progress.add_pixel();
         }
 }
 
-}  // namespace
+/// Adds the samples begin <= i < end of every pixel to the film.
+void add_pass(const Frame& frame, Film& film, int begin, int end, const ProgressCallback& progress,
+              Counters& counters) {
+    const int size = frame.settings.tile_size;
+    const int columns = (frame.view.width + size - 1) / size, rows = (frame.view.height + size - 1) / size;
+    PixelProgress pixel_progress(frame.view, progress);
+    std::mutex mutex;
+    parallel_in_order(rows * columns, [&](int tile) {
+        Counters of_tile;
+        add_to_tile(frame, film, tile % columns, tile / columns, begin, end, pixel_progress, of_tile);
+        const std::lock_guard lock(mutex);
+        counters += of_tile;
+    });
+}
 
-RenderReport render(const Scene& scene, const Environment& environment, const View& view, const RenderSettings& given,
-                    const BandSink& sink, const ProgressCallback& progress, const PictureSource* picture) {
+Band finished_rows(const Frame& frame, Film& film, const FrameChannels& channels, int y, int rows) {
+    Band band(y, rows, frame.view.width, channels.values.size(), channels.ids.size());
+    const int size = frame.settings.tile_size;
+    parallel_for((band.width + size - 1) / size, [&](int column) {
+        Counters uncounted;
+        render_tile(frame, &film, column * size, std::min((column + 1) * size, band.width), band, uncounted, nullptr);
+    });
+    return band;
+}
+
+void render_bands(const Frame& frame, Film* film, const FrameChannels& channels, const BandSink& sink,
+                  const ProgressCallback& progress, Counters& counters) {
+    const View& view = frame.view;
+    const int size = frame.settings.tile_size;
+    BandQueue queue(view, size, channels, sink);
+    const int rows = (view.height + size - 1) / size;
+    PixelProgress pixel_progress(view, progress);
+    std::mutex mutex;
+    parallel_in_order(rows * queue.columns(), [&](int tile) {
+        try {
+            const int row = tile / queue.columns(), x = tile % queue.columns() * size;
+            Counters of_tile;
+            render_tile(frame, film, x, std::min(x + size, view.width), queue.band(row), of_tile, &pixel_progress);
+            queue.complete_tile(row);
+            const std::lock_guard lock(mutex);
+            counters += of_tile;
+        } catch (...) {
+            queue.stop();
+            throw;
+        }
+    });
+}
+
+/// next_pass: null where all samples are taken at once.
+RenderReport render_frame(const Scene& scene, const Environment& environment, const View& view,
+                          const RenderSettings& given, const NextPass* next_pass, const BandSink& sink,
+                          const ProgressCallback& progress, const PictureSource* picture) {
     RenderReport report;
     RenderSettings settings = given;  // but for the number of samples
     const auto start = Clock::now();
@@ -111,39 +185,45 @@ RenderReport render(const Scene& scene, const Environment& environment, const Vi
     if (layers.cryptomatte) frame.mattes = &mattes.emplace(scene, *settings.labels.objects);
     frame.first_label = layer_channels(settings.rain.intensities_mm_per_h).size();
     frame.first_matte = frame.first_label + label_channels(layers).size();
-    if (settings.choose_samples)
+    if (settings.choose_samples && !next_pass)
         settings.samples = settings.choose_samples([&](std::span<const int64_t> pixels, int samples, uint64_t seed) {
             settings.samples = samples, settings.seed = seed;
             std::vector<float> values = render_pixels(frame, pixels);
             settings.seed = given.seed;
             return values;
         });
-    report.samples = settings.samples;
     report.build_seconds = seconds_since(start);
 
     const FrameChannels channels = frame_channels(settings.rain.intensities_mm_per_h, layers);
-    BandQueue queue(view, settings.tile_size, channels, sink);
-    const int rows = (view.height + settings.tile_size - 1) / settings.tile_size;
-    const int tiles = rows * queue.columns();
-    PixelProgress pixel_progress(view, progress);
-    std::mutex report_mutex;
-    parallel_in_order(tiles, [&](int tile) {
-        try {
-            const int row = tile / queue.columns(), x = tile % queue.columns() * settings.tile_size;
-            Counters counters;
-            render_tile(frame, x, std::min(x + settings.tile_size, view.width), queue.band(row), pixel_progress,
-                        counters);
-            queue.complete_tile(row);
-            const std::lock_guard lock(report_mutex);
-            report.counters += counters;
-        } catch (...) {
-            queue.stop();
-            throw;
+    std::optional<Film> film;
+    if (next_pass) {
+        film.emplace(view, settings.tile_size, frame.intensity_count());
+        settings.samples = 0;
+        const BandPreview preview = [&](int y, int rows) { return finished_rows(frame, *film, channels, y, rows); };
+        while (const int more = (*next_pass)(settings.samples, preview)) {
+            add_pass(frame, *film, settings.samples, settings.samples + more, progress, report.counters);
+            settings.samples += more;
         }
-    });
+    }
+    report.samples = settings.samples;
+    render_bands(frame, film ? &*film : nullptr, channels, sink, progress, report.counters);
     progress(1);
     report.render_seconds = seconds_since(start) - report.build_seconds;
     return report;
+}
+
+}  // namespace
+
+RenderReport render(const Scene& scene, const Environment& environment, const View& view,
+                    const RenderSettings& settings, const BandSink& sink, const ProgressCallback& progress,
+                    const PictureSource* picture) {
+    return render_frame(scene, environment, view, settings, nullptr, sink, progress, picture);
+}
+
+RenderReport render_in_passes(const Scene& scene, const Environment& environment, const View& view,
+                              const RenderSettings& settings, const NextPass& next_pass, const BandSink& sink,
+                              const ProgressCallback& progress) {
+    return render_frame(scene, environment, view, settings, &next_pass, sink, progress, nullptr);
 }
 
 }  // namespace pluvia

@@ -54,7 +54,8 @@ public:
         config.name = std::filesystem::path(path_).stem();
         RenderOptions common;
         const ConfigEntry* scenes = nullptr;
-        for (const ConfigEntry& entry : root.entries) {
+        const std::vector<ConfigEntry> entries = quality_first(root.entries);
+        for (const ConfigEntry& entry : entries) {
             check_key(entry, own_keys);
             if (entry.key == "scenes") {
                 scenes = &entry;
@@ -126,6 +127,11 @@ private:
         if (text != "true" && text != "false")
             fail(entry.line, fmt::format("{} is not valid (got \"{}\")", entry.key, text), "true or false");
         return text == "true";
+    }
+    /// What stands beside it counts more, in whatever order.
+    static std::vector<ConfigEntry> quality_first(std::vector<ConfigEntry> entries) {
+        std::stable_partition(entries.begin(), entries.end(), [](const ConfigEntry& e) { return e.key == "quality"; });
+        return entries;
     }
     const std::vector<ConfigNode>& list(const ConfigEntry& entry) const {
         require(entry.value.kind == Kind::list && !entry.value.items.empty(), entry.line, entry.key + " is no list",
@@ -242,7 +248,7 @@ private:
         require(node.kind == Kind::map, node.line, "a scene has no keys", "scene, frames, train, test");
         DatasetScene scene;
         scene.options = common;
-        for (const ConfigEntry& entry : node.entries) {
+        for (const ConfigEntry& entry : quality_first(node.entries)) {
             check_key(entry, scene_keys);
             if (entry.key == "scene") {
                 scene.source = scalar(entry);

@@ -11,6 +11,7 @@ void add_validate_command(CLI::App& app) {
     add_compare_command(*validate);
     add_closed_forms_command(*validate);
     add_extremes_command(*validate);
+    add_trade_command(*validate);
 }
 
 }  // namespace pluvia
