@@ -28,8 +28,8 @@ struct TradeResult {
     int samples = 0;               // per pixel
     double build_cpu_s = 0;        // processor time of what is made before the first sample
     double cpu_s = 0, wall_s = 0;  // of the samples, a pilot's included
-    LayerError background;
-    std::optional<LayerError> rainy;  // of the highest intensity
+    LayerError background = {};
+    std::optional<LayerError> rainy = {};  // of the highest intensity
 
     /// Of the worse layer.
     double error() const { return rainy ? std::max(rainy->error, background.error) : background.error; }
