@@ -1,6 +1,6 @@
 // Depth as integers: every code comes back as itself, and none stays none.
-#include "renderer/core/error.h"
 #include "renderer/image/depth_encoding.h"
+#include "renderer/core/error.h"
 
 #include <doctest/doctest.h>
 

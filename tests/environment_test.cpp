@@ -27,9 +27,9 @@ TEST_CASE("a direction meets the same texel as in Cycles") {
         Vec3 direction;
         float x, y;
     };
-    const Seen seen[] = {{{0.3f, 0.2f, -0.9f}, 19.243f, 13.895f}, {{0.9f, 0.1f, 0.2f}, 34.194f, 14.911f},
+    const Seen seen[] = {{{0.3f, 0.2f, -0.9f}, 19.243f, 13.895f},  {{0.9f, 0.1f, 0.2f}, 34.194f, 14.911f},
                          {{-0.2f, -0.6f, 0.8f}, 50.454f, 22.418f}, {{0.5f, 0.7f, 0.5f}, 39.953f, 8.063f},
-                         {{-0.9f, 0.3f, -0.3f}, 3.242f, 12.891f}, {{0.2f, 0, -1}, 17.977f, 16.011f}};
+                         {{-0.9f, 0.3f, -0.3f}, 3.242f, 12.891f},  {{0.2f, 0, -1}, 17.977f, 16.011f}};
     Image<Rgb> picture(64, 32);
     for (int y = 0; y < 32; ++y)
         for (int x = 0; x < 64; ++x) picture.at(x, y) = {float(x) + 0.5f, float(y) + 0.5f, 0};

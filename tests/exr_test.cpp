@@ -1,8 +1,8 @@
 // EXR files: every bit comes back, bytes do not depend on threads, half a file never looks like a whole one.
 // Pictures in other formats are in image_test.cpp.
+#include "renderer/image/exr.h"
 #include "renderer/core/error.h"
 #include "renderer/core/random.h"
-#include "renderer/image/exr.h"
 #include "tests/error_of.h"
 
 #include <doctest/doctest.h>

@@ -44,7 +44,9 @@ std::vector<Drop> drops_in_box(const DropPopulation& population, int size_class,
     return inside;
 }
 
-double volume(int size_class) { return std::pow(size_classes[size_class].cell_edge, 3); }
+double volume(int size_class) {
+    return std::pow(size_classes[size_class].cell_edge, 3);
+}
 
 // Counts of Poisson variables of one mean: their sum and their squared deviations are as they should be.
 struct PoissonCheck {
@@ -114,9 +116,8 @@ TEST_CASE("each intensity alone has Poisson counts, Marshall-Palmer diameters an
     for (double time : {0.0, 86400.5}) {
         std::array<std::vector<std::vector<Drop>>, size_classes.size()> cells;
         for (int c = 0; c < int(size_classes.size()); ++c)
-            for_each_test_cell(population, c, time, [&](CellIndex cell) {
-                cells[c].push_back(drops_in(population, c, cell, time, 500));
-            });
+            for_each_test_cell(population, c, time,
+                               [&](CellIndex cell) { cells[c].push_back(drops_in(population, c, cell, time, 500)); });
         for (double intensity : {0.1, 10.0, 100.0, 500.0}) {
             CAPTURE(time);
             CAPTURE(intensity);

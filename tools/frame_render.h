@@ -13,7 +13,7 @@ namespace pluvia {
 /// A scene at the time of a frame, as a file or a builder gives it.
 struct FrameScene {
     Scene scene;
-    uint64_t hash = 0;                     // of the content, whatever is switched off later
+    uint64_t hash = 0;  // of the content, whatever is switched off later
     bool is_animated = false;
     std::vector<std::string> labelled_paths;      // of Scene::instances: see GltfContents
     std::shared_ptr<const Scene> next, previous;  // a frame later and earlier; null: nothing moves or nobody asks;

@@ -28,8 +28,8 @@ private:
     Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-/// Makes the first interrupt, termination or user signal (SIGINT, SIGTERM, SIGUSR1, which batch systems send ahead of the
-/// end) a request to stop, seen by Progress::update; a second one kills.
+/// Makes the first interrupt, termination or user signal (SIGINT, SIGTERM, SIGUSR1, which batch systems send ahead of
+/// the end) a request to stop, seen by Progress::update; a second one kills.
 void catch_interrupts();
 
 }  // namespace pluvia

@@ -49,8 +49,12 @@ const std::array<float, 256>& linear_from_srgb8() {
 }
 
 // The comparison is false for NaN, whose conversion to an integer would be undefined.
-uint8_t byte_from_display(float value) { return value > 0 ? uint8_t(std::min(value, 1.0f) * 255 + 0.5f) : 0; }
-uint16_t word_from_display(float value) { return value > 0 ? uint16_t(std::min(value, 1.0f) * 65535 + 0.5f) : 0; }
+uint8_t byte_from_display(float value) {
+    return value > 0 ? uint8_t(std::min(value, 1.0f) * 255 + 0.5f) : 0;
+}
+uint16_t word_from_display(float value) {
+    return value > 0 ? uint16_t(std::min(value, 1.0f) * 65535 + 0.5f) : 0;
+}
 
 const std::vector<std::string>& display_view_names() {
     static const std::vector<std::string> names = [] {
@@ -73,10 +77,10 @@ DisplayView::DisplayView(const std::string& name) : processor_(std::make_unique<
         for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
         throw usage_error("view", "unknown name (got " + name + ", expected one of " + list + ")");
     }
-    processor_->cpu = config()
-                          ->getProcessor(ocio::ROLE_SCENE_LINEAR, display_name, name.c_str(),
-                                         ocio::TRANSFORM_DIR_FORWARD)
-                          ->getOptimizedCPUProcessor(ocio::OPTIMIZATION_VERY_GOOD);
+    processor_->cpu =
+        config()
+            ->getProcessor(ocio::ROLE_SCENE_LINEAR, display_name, name.c_str(), ocio::TRANSFORM_DIR_FORWARD)
+            ->getOptimizedCPUProcessor(ocio::OPTIMIZATION_VERY_GOOD);
 }
 
 DisplayView::~DisplayView() = default;

@@ -12,7 +12,9 @@ namespace {
 constexpr float none = std::numeric_limits<float>::infinity();
 
 /// Whether a depth can be told from none; false for NaN.
-bool is_depth(float metres, float limit) { return metres > 0 && metres <= limit; }
+bool is_depth(float metres, float limit) {
+    return metres > 0 && metres <= limit;
+}
 
 /// Nearest of the codes first to last; steps in double, since 24 bits and their rounding do not fit in float.
 uint32_t nearest_code(float metres, double steps_per_metre, uint32_t first, uint32_t last) {
@@ -44,16 +46,20 @@ DepthEncoding depth_encoding_from_name(const std::string& name, const std::strin
 uint16_t encode_kitti16(float metres) {
     return is_depth(metres, kitti16_limit) ? uint16_t(nearest_code(metres, kitti16_steps, 1, 65535)) : 0;
 }
-float decode_kitti16(uint16_t value) { return value == 0 ? none : float(value / kitti16_steps); }
+float decode_kitti16(uint16_t value) {
+    return value == 0 ? none : float(value / kitti16_steps);
+}
 
 uint16_t encode_mm16(float metres) {
     return is_depth(metres, mm16_limit) ? uint16_t(nearest_code(metres, mm16_steps, 1, 65535)) : 0;
 }
-float decode_mm16(uint16_t value) { return value == 0 ? none : float(value / mm16_steps); }
+float decode_mm16(uint16_t value) {
+    return value == 0 ? none : float(value / mm16_steps);
+}
 
 Rgba8 encode_carla24(float metres) {
-    const uint32_t code = is_depth(metres, carla24_limit) ? nearest_code(metres, carla24_steps, 0, carla24_none - 1)
-                                                          : carla24_none;
+    const uint32_t code =
+        is_depth(metres, carla24_limit) ? nearest_code(metres, carla24_steps, 0, carla24_none - 1) : carla24_none;
     return {uint8_t(code), uint8_t(code >> 8), uint8_t(code >> 16), 255};
 }
 float decode_carla24(Rgba8 value) {

@@ -36,8 +36,8 @@ const BandTable& bands() {
                 const double density =
                     number_density(band_edges[k + 1], d1, d2) - number_density(band_edges[k], d1, d2);
                 const double smallest = std::expm1(-(b - a) * d1), largest = std::expm1(-(b - a) * d2);
-                result[c][k] = {a, b, density * edge * edge * edge, std::expm1(-a * (d2 - d1)), largest,
-                                smallest / largest};
+                result[c][k] = {
+                    a, b, density * edge * edge * edge, std::expm1(-a * (d2 - d1)), largest, smallest / largest};
             }
         }
         return result;
@@ -73,7 +73,9 @@ float sample_threshold(int k, const Band& band, double diameter, double u) {
     return std::clamp(float(std::pow(beta / 4100, -1 / 0.21)), above_lower, float(band_edges[k + 1]));
 }
 
-double middle_speed(const SizeClass& size) { return (fall_speed(size.d1) + fall_speed(size.d2)) / 2; }
+double middle_speed(const SizeClass& size) {
+    return (fall_speed(size.d1) + fall_speed(size.d2)) / 2;
+}
 
 }  // namespace
 
@@ -113,8 +115,7 @@ void visit_drops(const DropPopulation& population, int size_class, CellIndex cel
             const double drift = (fall_speed(drop.diameter) - middle_speed(size)) * time;
             const double height = draw(drop.key, draw_y) * size.cell_edge - drift;
             drop.position.y += height - std::floor(height / size.cell_edge) * size.cell_edge;
-            if (drop.position.y < population.lowest_ground ||
-                drop.position.y >= population.lowest_ground + rain_height)
+            if (drop.position.y < population.lowest_ground || drop.position.y >= population.lowest_ground + rain_height)
                 continue;
             drop.threshold_mm_per_h = sample_threshold(k, band, drop.diameter, draw(drop.key, draw_threshold));
             if (drop.threshold_mm_per_h <= max_intensity_mm_per_h) visit(drop);

@@ -59,7 +59,9 @@ double size_slope(double intensity_mm_per_h) {
     return 4100 * std::pow(intensity_mm_per_h, -0.21);
 }
 
-double fall_speed(double diameter) { return kessler_speed * std::sqrt(diameter); }
+double fall_speed(double diameter) {
+    return kessler_speed * std::sqrt(diameter);
+}
 
 double size_moment(double intensity_mm_per_h, double order, double d1, double d2) {
     if (intensity_mm_per_h <= 0 || d2 <= d1) return 0;
@@ -77,8 +79,8 @@ double extinction(double intensity_mm_per_h, double d1, double d2) {
     if (intensity_mm_per_h <= 0 || d2 <= d1) return 0;
     const double beta = size_slope(intensity_mm_per_h), x1 = beta * d1, width = beta * (d2 - d1);
     // With t = x1 + s all parts of (x1 + s)^2 e^-(x1 + s) are positive: narrow intervals lose no digits.
-    const double second_moment = x1 * x1 * -std::expm1(-width) + 2 * x1 * gamma_between(2, 0, width) +
-                                 gamma_between(3, 0, width);
+    const double second_moment =
+        x1 * x1 * -std::expm1(-width) + 2 * x1 * gamma_between(2, 0, width) + gamma_between(3, 0, width);
     return std::numbers::pi / 4 * marshall_palmer_n0 / (beta * beta * beta) * std::exp(-x1) * second_moment;
 }
 

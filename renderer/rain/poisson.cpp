@@ -11,8 +11,8 @@ namespace {
 // ln k! for k >= 10 by Stirling's series, to 1e-14; std::lgamma writes a global variable.
 double log_factorial(double k) {
     const double n = k + 1, inverse = 1 / n, square = inverse * inverse;
-    const double series = inverse * (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260 - square * (1.0 / 1680 -
-                                     square / 1188))));
+    const double series =
+        inverse * (1.0 / 12 - square * (1.0 / 360 - square * (1.0 / 1260 - square * (1.0 / 1680 - square / 1188))));
     return (n - 0.5) * std::log(n) - n + 0.5 * std::log(2 * std::numbers::pi) + series;
 }
 

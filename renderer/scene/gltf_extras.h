@@ -1,7 +1,7 @@
 // What Pluvia reads and writes in the extras of a glTF file.
 // Under "pluvia": {"lamp": true} on a node, for it and all below it, or on a material (what it means is in lamps.h);
-// {"wet": false} on a material that stays dry on wet ground. Beside it {"semantic": "car", "instance": 3} on a node, for
-// it and all below it: its class as Cityscapes names it, and which one of that class it is, from 0.
+// {"wet": false} on a material that stays dry on wet ground. Beside it {"semantic": "car", "instance": 3} on a node,
+// for it and all below it: its class as Cityscapes names it, and which one of that class it is, from 0.
 #pragma once
 
 #include "renderer/scene/gltf_value.h"

@@ -74,7 +74,9 @@ struct Query {
     }
 };
 
-Query& query_of(RTCIntersectContext* context) { return *reinterpret_cast<Query*>(context); }
+Query& query_of(RTCIntersectContext* context) {
+    return *reinterpret_cast<Query*>(context);
+}
 
 struct StreakScene {
     RTCDevice device = rtcNewDevice("threads=1");
@@ -115,10 +117,10 @@ struct StreakScene {
     // A quad facing the camera around each streak, a little larger than its outline.
     void add_quads() {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
-        auto* corners = static_cast<Vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                                   RTC_FORMAT_FLOAT3, 12, 4 * streaks.size()));
-        auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0,
-                                                                       RTC_FORMAT_UINT4, 16, streaks.size()));
+        auto* corners = static_cast<Vec3*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 4 * streaks.size()));
+        auto* indices = static_cast<uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 16, streaks.size()));
         for (size_t i = 0; i < streaks.size(); ++i) {
             const Streak& s = streaks[i];
             const Vec3 end = s.start + s.velocity * exposure;

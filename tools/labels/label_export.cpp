@@ -23,7 +23,8 @@ void export_labels(const std::vector<LabelSource>& frames, const std::string& fo
     for (const LabelSource& source : frames) {
         if (!names.insert(source.name).second)
             throw usage_error(
-                source.exr, fmt::format("two frames are named \"{}\" (expected a name of its own for each)", source.name));
+                source.exr,
+                fmt::format("two frames are named \"{}\" (expected a name of its own for each)", source.name));
     }
     std::error_code error;
     std::filesystem::create_directories(folder, error);
