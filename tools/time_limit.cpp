@@ -1,22 +1,16 @@
 #include "tools/time_limit.h"
 
+#include "tools/clock.h"
+
 #include <unistd.h>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 namespace pluvia {
 namespace {
-
-double seconds_since_boot() {
-    timespec time = {};
-    clock_gettime(CLOCK_BOOTTIME, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
-}
 
 /// Field 22 of /proc/self/stat, after the name in parentheses, which may hold spaces: see proc(5).
 double process_start() {
@@ -26,14 +20,14 @@ double process_start() {
     std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
     std::string field;
     for (int i = 3; i <= 22; ++i) fields >> field;
-    return fields ? std::strtod(field.c_str(), nullptr) / double(sysconf(_SC_CLK_TCK)) : seconds_since_boot();
+    return fields ? std::strtod(field.c_str(), nullptr) / double(sysconf(_SC_CLK_TCK)) : clock_seconds(CLOCK_BOOTTIME);
 }
 
 }  // namespace
 
 double process_seconds() {
     static const double start = process_start();
-    return seconds_since_boot() - start;
+    return clock_seconds(CLOCK_BOOTTIME) - start;
 }
 
 int TimeLimit::next_pass() {

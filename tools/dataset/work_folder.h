@@ -10,8 +10,8 @@ namespace pluvia {
 
 class WorkFolder {
 public:
-    /// Makes DATASET/work/SHARD_HOST_PROCESS and removes those of the same host whose process is no more. Throws
-    /// Error (render_failed) when that is impossible.
+    /// Makes a folder of this shard, host and process in DATASET/work, and removes those that dead processes of the
+    /// same host have left. Throws Error (render_failed) when that is impossible.
     WorkFolder(const std::string& dataset, Shard shard);
     /// Removes it, and DATASET/work when nobody else is in it.
     ~WorkFolder();

@@ -1,5 +1,6 @@
 #include "tools/validate/trade.h"
 
+#include "tools/clock.h"
 #include "tools/dataset/file_hash.h"
 #include "tools/sample_choice.h"
 #include "tools/scene_light.h"
@@ -10,21 +11,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
-#include <ctime>
 
 namespace pluvia {
 namespace {
 
 double cpu_seconds() {
-    timespec time = {};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+    return clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 double wall_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return clock_seconds(CLOCK_MONOTONIC);
 }
 
 void append_rows(Image<Rgb>& image, const Band& band, size_t first) {
