@@ -206,6 +206,7 @@ void Environment::measure(const Image<Rgb>& means) {
 
 void Environment::add_discs(const std::vector<Disc>& discs) {
     const double picture = luminance(mean_radiance_);
+    picture_power_ = float(4 * pi_d * picture);
     std::vector<double> power;
     double total = picture;
     for (const Disc& disc : discs) {
@@ -231,6 +232,7 @@ void Environment::add_discs(const std::vector<Disc>& discs) {
 void Environment::multiply(float factor) {
     uniform_ *= factor;
     scale_ *= factor;
+    picture_power_ *= factor;
     for (Disc& disc : discs_)
         for (Rgb& strip : disc.strips) strip *= factor;
     disc_illuminance_ *= factor;
@@ -265,6 +267,19 @@ EnvironmentSample Environment::sample(Vec2 u, float u_choice) const {
 
 EnvironmentSample Environment::sample_sky(Vec2 u) const {
     if (picture_.pixels.empty()) return {sample_sphere(u), uniform_, pdf_sphere};
+    auto [s, uv] = draw_from_picture(u);
+    s.radiance = picture_radiance(uv);
+    return s;
+}
+
+EnvironmentSample Environment::estimate_sky(Vec2 u) const {
+    if (picture_.pixels.empty()) return {sample_sphere(u), Rgb(luminance(uniform_)), pdf_sphere};
+    EnvironmentSample s = draw_from_picture(u).first;
+    s.radiance = Rgb(s.pdf * picture_power_);
+    return s;
+}
+
+std::pair<EnvironmentSample, Vec2> Environment::draw_from_picture(Vec2 u) const {
     const auto row = row_choice_.sample(u.y);
     const auto column = column_choice_[row.cell].sample(u.x);
     // In double: next to a pole single precision leaves only a few values between the edges of a row.
@@ -274,9 +289,8 @@ EnvironmentSample Environment::sample_sky(Vec2 u) const {
     const float across = (float(column.cell) + column.offset) / float(columns_), phi = 2 * pi * across;
     // Of the point that was drawn, not of the direction again: the texels are on their way sooner.
     const Vec2 uv{across, 0.5f - fast_atan2(float(y), radius) * (1 / pi)};
-    return {{-radius * std::cos(phi), float(y), -radius * std::sin(phi)},
-            picture_radiance(uv),
-            cell_pdf(row.cell, column.cell)};
+    const Vec3 wi(-radius * std::cos(phi), float(y), -radius * std::sin(phi));
+    return {{wi, Rgb(0), cell_pdf(row.cell, column.cell)}, uv};
 }
 
 EnvironmentSample Environment::sample_sun(Vec2 u, float u_choice) const {

@@ -95,6 +95,8 @@ public:
     bool has_sun() const { return !discs_.empty(); }
     /// As sample(), of one part; where it has light.
     EnvironmentSample sample_sky(Vec2 u) const;
+    /// sample_sky with a grey radiance, the mean luminance of the cell: the picture is not looked at. Positive.
+    EnvironmentSample estimate_sky(Vec2 u) const;
     EnvironmentSample sample_sun(Vec2 u, float u_choice) const;
     /// What the samples of a part are in a unit direction. radiance() is the sum of both radiances.
     EnvironmentSample sky(Vec3 direction) const;
@@ -118,6 +120,8 @@ private:
         float one_minus_cos;
         float probability;  // among the discs
     };
+    /// A direction without its radiance, and its place in the picture.
+    std::pair<EnvironmentSample, Vec2> draw_from_picture(Vec2 u) const;
     Rgb picture_radiance(Vec2 uv) const;
     float cell_pdf(int row, int column) const;
     bool is_in_disc(size_t disc, Vec3 direction) const;
@@ -135,6 +139,7 @@ private:
     Distribution1D row_choice_;
     std::vector<Distribution1D> column_choice_;  // per row
     std::vector<double> row_edge_;               // sine of elevation at the upper edge of each row, and -1
+    float picture_power_ = 0;                    // integral of the picture's luminance over all directions
     double sky_illuminance_ = 0;
     Rgb mean_radiance_;
 };

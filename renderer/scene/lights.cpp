@@ -182,8 +182,8 @@ LightSample Lights::directional_light(float u_choice, float probability) const {
             directional_choice_.probability(choice.cell) * probability, true};
 }
 
-LightSample Lights::sample_sky(Vec2 u) const {
-    const EnvironmentSample s = environment_->sample_sky(u);
+LightSample Lights::estimate_sky(Vec2 u) const {
+    const EnvironmentSample s = environment_->estimate_sky(u);
     return {s.wi, std::numeric_limits<float>::infinity(), s.radiance, s.pdf, false};
 }
 

@@ -62,7 +62,8 @@ public:
     /// directional lights.
     bool has_sky() const { return environment_->has_sky(); }
     bool has_sun() const { return environment_->has_sun() || !directional_.empty(); }
-    LightSample sample_sky(Vec2 u) const;
+    /// With grey in place of the sky's radiance, which is environment().sky(wi): enough to weigh it.
+    LightSample estimate_sky(Vec2 u) const;
     LightSample sample_sun(float u_choice, Vec2 u) const;
     /// Pdf with respect to solid angle at which sample_sun picks this direction of sun and moon. Of the sky it is that
     /// of Environment::sky().

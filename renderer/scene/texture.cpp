@@ -68,15 +68,15 @@ Vec3 lookup_linear(const Scene& scene, int texture, Vec2 uv) {
     const Texels t = find_texels(scene, scene.textures[texture], uv);
     Vec3 sum;
     for (int k = 0; k < 4; ++k)
-        sum += t.weight[k] * Vec3(t.corner[k]->r / 255.0f, t.corner[k]->g / 255.0f, t.corner[k]->b / 255.0f);
-    return sum;
+        sum += t.weight[k] * Vec3(float(t.corner[k]->r), float(t.corner[k]->g), float(t.corner[k]->b));
+    return sum / 255.0f;
 }
 
 float lookup_alpha(const Scene& scene, int texture, Vec2 uv) {
     const Texels t = find_texels(scene, scene.textures[texture], uv);
     float sum = 0;
-    for (int k = 0; k < 4; ++k) sum += t.weight[k] * (t.corner[k]->a / 255.0f);
-    return sum;
+    for (int k = 0; k < 4; ++k) sum += t.weight[k] * float(t.corner[k]->a);
+    return sum / 255.0f;
 }
 
 }  // namespace pluvia

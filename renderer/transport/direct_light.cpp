@@ -13,6 +13,8 @@ namespace {
 // both ends carry the rounding of the distance.
 constexpr float before_light = 1 - 2e-4f;
 
+constexpr uint64_t roulette_domain = 0x726f756c;
+
 /// Point i of a few that share one random point: its shift on the torus by the sequence R2 (Roberts 2018).
 Vec2 shifted(Vec2 u, int i) {
     const auto wrap = [](float x) { return std::min(x - std::floor(x), 0x1.fffffep-1f); };
@@ -53,11 +55,11 @@ public:
         u_ = u_ / share;
         return true;
     }
-    /// The kept sample's light may be known better than when it was weighed.
-    void correct(const LightSample& light) { light_ = light; }
     const std::optional<LightSample>& light() const { return light_; }
-    /// Unbiased estimate of the sum of all samples, if the kept one is visible.
-    Rgb estimate() const { return scattered_ * light_->radiance * total_; }
+    /// Luminance of the sum of all samples, as far as they are visible like the kept one.
+    float expected() const { return total_; }
+    /// Unbiased estimate of that sum. radiance: of the kept sample, which it may have been weighed without knowing.
+    Rgb estimate(Rgb radiance) const { return scattered_ * radiance * total_; }
 
 private:
     float u_, total_ = 0;
@@ -65,12 +67,18 @@ private:
     std::optional<LightSample> light_;
 };
 
-Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, Draw draw, Counters& counters) {
+/// radiance: gives that of the kept sample. It is asked for only where it arrives: textures and skies are large.
+template <class Radiance>
+Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, Draw draw, const Radiance& radiance,
+                 Counters& counters) {
     if (!pick.light()) return Rgb(0);
+    const uint64_t key = v.sampler.key(draw, uint32_t(v.bounce));
+    // A hash rather than one of the sampler's numbers: the relevance depends on samples that those are stratified with.
+    const float q = pick.expected() * v.relevance;
+    if (q < 1 && unit_float(hash_key(key, roulette_domain)) >= q) return Rgb(0);
     const Vec3 n = v.surface.geometric_normal;
     const Vec3 from =
         offset_from_surface(v.surface.position, is_above(v.surface, pick.light()->wi) ? n : -n, v.surface.extent);
-    const OpacityTest opacity{v.sampler.key(draw, uint32_t(v.bounce))};
     // Aimed anew from where the ray starts: a ray that keeps its direction while its origin moves off the surface meets
     // a triangle seen edge-on so much earlier that the triangle would shade itself.
     LightSample light = *pick.light();
@@ -79,7 +87,8 @@ Rgb visible_part(const RayScene& ray_scene, const Pick& pick, const Vertex& v, D
         light.distance = length(to_light);
         light.wi = to_light / light.distance;
     }
-    return pick.estimate() * visible_share(ray_scene, from, light, opacity, counters);
+    const Rgb share = visible_share(ray_scene, from, light, {key}, counters);
+    return is_black(share) ? share : pick.estimate(radiance()) * share * (1 / std::min(q, 1.0f));
 }
 
 /// What is left of light that goes straight on through all that the ray meets.
@@ -93,13 +102,6 @@ Rgb through_panes(const RayScene& ray_scene, Ray ray, OpacityTest opacity, Count
                ray.t_max - hit.distance};
     }
     return left;
-}
-
-/// Of a single sample there is nothing to pick.
-Rgb light_of_one(const RayScene& ray_scene, const Vertex& v, const LightSample& light, Draw draw, Counters& counters) {
-    Pick pick(0);
-    pick.add(v, light, 1);
-    return visible_part(ray_scene, pick, v, draw, counters);
 }
 
 }  // namespace
@@ -133,23 +135,33 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
         counters.count(Feature::local_light);
         const Receiver receiver = receiver_at(v.surface, v.bsdf);
         Pick pick(v.u.get_1d(Draw::light_pick));
-        std::array<Lights::LocalPoint, local_light_samples> points;
-        lights.choose_local(receiver, choice.x, points);
+        const int count = local_light_samples(v.bounce);
+        std::array<Lights::LocalPoint, most_local_light_samples> points;
+        lights.choose_local(receiver, choice.x, {points.data(), size_t(count)});
         const Lights::LocalPoint* kept = nullptr;
-        for (int i = 0; i < local_light_samples; ++i) {
+        for (int i = 0; i < count; ++i) {
             if (points[i].light < 0) continue;
             points[i].u = shifted(v.u.get_2d(Draw::light_point), i);
-            if (pick.add(v, lights.estimate(receiver.position, points[i]), local_light_samples)) kept = &points[i];
+            if (pick.add(v, lights.estimate(receiver.position, points[i]), count)) kept = &points[i];
         }
-        if (kept) pick.correct(lights.illuminate(receiver.position, *kept));
-        sum += visible_part(ray_scene, pick, v, Draw::light_point, counters);
+        const auto radiance = [&] { return lights.illuminate(receiver.position, *kept).radiance; };
+        sum += visible_part(ray_scene, pick, v, Draw::light_point, radiance, counters);
     }
     if (lights.has_sky() || lights.has_sun()) counters.count(Feature::distant_light);
-    if (lights.has_sky())
-        sum += light_of_one(ray_scene, v, lights.sample_sky(v.u.get_2d(Draw::sky_point)), Draw::sky_point, counters);
-    if (lights.has_sun())
-        sum += light_of_one(ray_scene, v, lights.sample_sun(choice.y, v.u.get_2d(Draw::sun_point)), Draw::sun_point,
-                            counters);
+    if (lights.has_sky()) {
+        Pick pick(0);
+        const LightSample light = lights.estimate_sky(v.u.get_2d(Draw::sky_point));
+        pick.add(v, light, 1);
+        const auto radiance = [&] { return lights.environment().sky(light.wi).radiance; };
+        sum += visible_part(ray_scene, pick, v, Draw::sky_point, radiance, counters);
+    }
+    if (lights.has_sun()) {
+        Pick pick(0);
+        const LightSample light = lights.sample_sun(choice.y, v.u.get_2d(Draw::sun_point));
+        pick.add(v, light, 1);
+        sum += visible_part(
+            ray_scene, pick, v, Draw::sun_point, [&] { return light.radiance; }, counters);
+    }
     return sum;
 }
 

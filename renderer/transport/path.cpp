@@ -12,10 +12,20 @@ constexpr int first_roulette_bounce = 2;
 // gathers has a finite mean only while a^2 < max_survival: 0.95 would lose rooms whiter than 0.975 in noise.
 constexpr float max_survival = 0.999f;
 
+// Shadow rays that bring less than this share of a pixel's light are traced for some samples only. What they add to a
+// sample's relative variance is at most this times the share of that light.
+constexpr float least_share = 0.25f;
+
+/// See Vertex::relevance.
+float relevance(Rgb throughput, const PathWorth& worth) {
+    return worth.pixel_luminance > 0 ? max_component(throughput) / (least_share * worth.pixel_luminance)
+                                     : std::numeric_limits<float>::infinity();
+}
+
 }  // namespace
 
 PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
-                             float importance) const {
+                             const PathWorth& worth) const {
     PathResult result;
     Rgb throughput(1);  // of basic radiance: see shaders/glass.h
     Media media;
@@ -52,7 +62,9 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
             result.radiance += throughput * direct_light(*ray_scene_, *lights_,
-                                                         {*scene_, surface, bsdf, basis, sampler, u, bounce}, counters);
+                                                         {*scene_, surface, bsdf, basis, sampler, u, bounce,
+                                                          relevance(throughput, worth)},
+                                                         counters);
 
         const auto next = sample(bsdf, lobe.x, u.get_2d(Draw::bsdf));
         if (!next) return result;
@@ -61,8 +73,8 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if ((dot(wi, surface.geometric_normal) > 0) == next->transmitted) return result;
         throughput *= next->weight;
         if (is_black(throughput)) return result;
-        if (bounce >= first_roulette_bounce || importance < 1) {
-            const float survival = std::min(max_survival, importance * max_component(throughput));
+        if (bounce >= first_roulette_bounce || worth.importance < 1) {
+            const float survival = std::min(max_survival, worth.importance * max_component(throughput));
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }
@@ -72,7 +84,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         else if (last)
             return result;
         else
-            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples, true};
+            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples(bounce), true};
         if (next->transmitted && surface.volume >= 0) {
             if (surface.from_front)
                 media.enter(surface.volume);

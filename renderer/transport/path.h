@@ -13,6 +13,12 @@ struct PathSettings {
     int max_bounces = std::numeric_limits<int>::max();
 };
 
+/// What the light of a path is worth, which decides how often roulette ends it or leaves out a shadow ray.
+struct PathWorth {
+    float pixel_luminance = 0;  // of the pixel as far as known, in cd/m2; 0: unknown
+    float importance = 1;       // below 1 where the path brings little to its pixel: roulette then sets in at once
+};
+
 struct PathResult {
     Rgb radiance;
     float distance = std::numeric_limits<float>::infinity();  // to the first surface that does not let the ray pass
@@ -27,9 +33,8 @@ public:
         : scene_(&scene), ray_scene_(&ray_scene), lights_(&lights), settings_(settings), wet_ground_(wet_ground) {}
 
     /// bounce: scattering events before this ray; it selects the random numbers and counts towards max_bounces.
-    /// importance: below 1 where the path brings little to its pixel: roulette then sets in at once and is stricter.
     PathResult trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
-                     float importance = 1) const;
+                     const PathWorth& worth = {}) const;
 
     const Lights& lights() const { return *lights_; }
     const RayScene& ray_scene() const { return *ray_scene_; }

@@ -20,8 +20,14 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
     const SceneRay ray = scene_ray(frame.view, frame.far_scene, seen);
     counters.count(Feature::camera_path);
-    const PathResult path =
-        frame.picture ? frame.picture->along(x, y, seen) : frame.tracer.trace(ray.near, {}, sampler, 0, counters);
+    PixelSums& sums = scratch.film.sums;
+    const auto mean_luminance = [&](int samples) {
+        const auto& sum = sums.background;
+        return luminance(Rgb(float(sum[0]), float(sum[1]), float(sum[2]))) / float(samples);
+    };
+    const PathResult path = frame.picture ? frame.picture->along(x, y, seen)
+                                          : frame.tracer.trace(ray.near, {}, sampler, 0, counters,
+                                                               {index > 0 ? mean_luminance(index) : 0.0f});
     if (!is_finite(path.radiance)) {
         ++counters.invalid_samples;
         return;
@@ -32,14 +38,12 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
         scratch.film.objects.add(frame.mattes->objects.object_of_instance[path.first.instance]);
         scratch.film.materials.add(frame.mattes->scene.meshes[instance.mesh].material);
     }
-    PixelSums& sums = scratch.film.sums;
     add(sums.background, path.radiance);
     if (!frame.rain) return;
 
     seen.t_max = float(ray.before + path.distance);
-    const Rgb mean(float(sums.background[0]), float(sums.background[1]), float(sums.background[2]));
     CameraSegment segment{pixel, scratch.candidates, ray.ray,
-                          seen,  path.radiance,      std::max(frame.dark, luminance(mean) / float(index + 1))};
+                          seen,  path.radiance,      std::max(frame.dark, mean_luminance(index + 1))};
     if (frame.shadow)
         segment.dry =
             scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);

@@ -131,7 +131,7 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
         [&](float weight) { return worth(weight * brightness, segment, settings_.medium_roulette); },
         [&] {
             counters.count(Feature::medium_path);
-            return event.trace(counters);
+            return event.trace(segment.background_luminance, counters);
         });
     if (lights.has_local()) scatter_near_lamp(scatterer, segment, in_rain, anchor, sampler, scratch, counters);
 }
@@ -260,7 +260,7 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     const float q = worth(weight * brightness, segment, settings_.streak_roulette);
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
     counters.count(Feature::streak_path);
-    const Rgb light = event.trace(counters);
+    const Rgb light = event.trace(segment.background_luminance, counters);
     return q >= 1 ? light : light / q;
 }
 

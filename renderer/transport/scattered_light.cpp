@@ -37,15 +37,15 @@ void ScatteredLight::weigh_lamp(float weight) {
     unshadowed_ = std::max(0.0f, unshadowed_ + luminance(candidates_[0].contribution));
 }
 
-Rgb ScatteredLight::trace(Counters& counters) const {
+Rgb ScatteredLight::trace(float pixel_luminance, Counters& counters) const {
     Rgb sum;
     for (int i = 0; i < count_; ++i)
         sum += candidates_[i].contribution * visible_share(tracer_->ray_scene(), position_, candidates_[i].light,
                                                            {sampler_->key(candidates_[i].draw)}, counters);
     const Vec3 wi = sample_scatter(*function_, sampler_->get_2d(Draw::streak_phase));
     const ScatterValue scatter = evaluate_scatter(*function_, wi);
-    const PathResult path =
-        tracer_->trace({position_, wi}, {scatter.pdf, {position_, Vec3()}}, *sampler_, 1, counters, path_importance);
+    const PathResult path = tracer_->trace({position_, wi}, {scatter.pdf, {position_, Vec3()}}, *sampler_, 1, counters,
+                                           {pixel_luminance, path_importance});
     return sum + path.radiance * (scatter.value / scatter.pdf);
 }
 
