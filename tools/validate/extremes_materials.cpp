@@ -75,11 +75,11 @@ std::vector<ExtremeResult> measure_material_extremes(bool full) {
         RenderSettings settings{.samples = samples};
         if (bounces >= 0) settings.path.max_bounces = bounces;
         const double expected = albedo == 1 ? bounces + 1 : 1 / (1 - double(albedo));
-        results.push_back(mean_result(
-            fmt::format("closed room, every wall shines, albedo {}{}", albedo,
-                        bounces < 0 ? "" : fmt::format(", {} bounces", bounces)),
-            expected, sound_means(room(albedo), Environment(), inside, settings, "background.G", pictures),
-            rounding * expected));
+        results.push_back(
+            mean_result(fmt::format("closed room, every wall shines, albedo {}{}", albedo,
+                                    bounces < 0 ? "" : fmt::format(", {} bounces", bounces)),
+                        expected, sound_means(room(albedo), Environment(), inside, settings, "background.G", pictures),
+                        rounding * expected));
     }
     // Textures. 186 of 255 is 0.4910 in linear light.
     const double linear = std::pow((186 / 255.0 + 0.055) / 1.055, 2.4);
