@@ -30,10 +30,9 @@ struct StreakSettings {
     double paper_gain = 24.5;
     /// What streaks look like with the paper's composition; null: even.
     std::shared_ptr<const StreakTextures> textures;
-    /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. A streak stands
-    /// out of its surroundings, so that its noise is seen; the medium is everywhere, and its noise stays far below the
-    /// background's.
-    double streak_roulette = 0.1, medium_roulette = 0.2;
+    /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. At 0.25 time
+    /// times error of the rainy picture is least on wet streets by day, and it has less noise than the clean one.
+    double streak_roulette = 0.25, medium_roulette = 0.25;
     /// Light of the medium in place of traced paths, where there are neither lamps nor fog: quick, but BIASED where
     /// what is near looks different from a drop than from the camera. Null: traced.
     std::shared_ptr<const FarLight> far_light = nullptr;

@@ -93,8 +93,6 @@ AugmentSettings::AugmentSettings(const AugmentOptions& o) : options(o), render(r
     camera_settings(o.render);
     ev100 = exposure_ev100(o.render);
     if (!o.render.light.environment.empty()) environment = make_environment(o.render.light, true);
-    // Pictures are of 8 bits: what light is worth is told by what shows there.
-    render.streaks.streak_roulette = render.streaks.medium_roulette = 0.25;
     render.streaks.textures = streak_textures(o.render);
 }
 
