@@ -54,7 +54,8 @@ TEST_CASE("checkpoints become files of weights with what inference needs of them
         }
         REQUIRE(convert(arguments));
         std::vector<std::string> list;
-        for (const auto& [name, entry] : SafetensorsFile(folder / "out").entries()) list.push_back(name);
+        const SafetensorsFile file(folder / "out");
+        for (const auto& [name, entry] : file.entries()) list.push_back(name);
         return list;
     };
     using Names = std::vector<std::string>;
