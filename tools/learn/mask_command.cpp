@@ -134,6 +134,13 @@ void add_learn_mask_command(CLI::App& learn) {
     command->add_option("--camera-velocity", r.camera_velocity, "X,Y,Z in m/s")->delimiter(',');
     command->add_option("--focal-length", r.focal_length, "mm, of a sensor 36 mm wide; default: 34 degrees of height");
     command->add_option("--shutter", r.shutter, "exposure time, s")->capture_default_str();
+    command
+        ->add_option("--streak-distance", r.streak_distance,
+                     "metres beyond which drops are drawn as wide as at it; 1.78 = the published code, 0 = true width")
+        ->capture_default_str();
+    command
+        ->add_option("--streak-share", r.streak_share, "share of the drops that is drawn; 0.024 = the published code")
+        ->capture_default_str();
     command->add_option("--spp", r.spp, "samples per pixel")->capture_default_str();
     command->add_option("--seed", r.seed, "another seed, other drops")->capture_default_str();
     command->add_option("--threads", r.threads, "0: all")->capture_default_str();
