@@ -3,8 +3,7 @@
 //   cmake --build build-fuzz --target safetensors_fuzz
 // No input of 4 kB may ask for as much as 64 MB at once:
 //   build-fuzz/tests/fuzz/safetensors_fuzz -malloc_limit_mb=64 -dict=tests/fuzz/safetensors.dict -max_len=4096
-//   -runs=1000000 FOLDER
-//     tests/fuzz/safetensors
+//     -runs=1000000 FOLDER tests/fuzz/safetensors
 #include "renderer/core/error.h"
 #include "tests/fuzz/memory_file.h"
 #include "tools/learning/crig_config.h"
