@@ -29,7 +29,9 @@ TEST_CASE("without libtorch training and inference say in one line how to get it
         MESSAGE("libtorch is there: nothing to see");
         return;
     }
-    for (const char* command : {"learn train", "learn infer --background a --mask b --model c -o d"}) {
+    for (const char* command :
+         {"learn train", "learn crig --model a -o b", "learn evaluate --prediction a --truth b --lpips c",
+          "learn infer --background a --mask b --model c -o d"}) {
         const Outcome o = run_program(command);
         CHECK(o.exit_code == 2);
         CHECK(o.err.find("apt-get install libtorch-dev") != std::string::npos);
@@ -106,6 +108,12 @@ TEST_CASE("masks from mm/h are layers with alpha, more of it the more it rains, 
     CHECK(light > 50);
     CHECK(heavy > 2 * light);
     CHECK(heavy < 256 * 128);
+    for (const Rgba8& p : read_rgba8(folder / "masks/100mm_frame_0000.png").pixels)
+        REQUIRE((p.r == p.a && p.g == p.a && p.b == p.a));  // one picture for readers of alpha and of colour
+    const auto labels = nlohmann::json::parse(read_file(folder / "masks/data_info.json"));
+    REQUIRE(labels.size() == 2);
+    CHECK(labels[1]["img"] == "100mm_frame_0000.png");
+    CHECK(labels[1]["label"] == nlohmann::json({1.0, 0.0}));
     const Outcome again = run_program(command);
     CHECK(again.out.find("2 of them were there already") != std::string::npos);
     CHECK(run_program("learn mask --rain -1 -o " + (folder / "no")).exit_code == 2);

@@ -161,13 +161,15 @@ TEST_CASE("the order in which tiles are worked on changes no bit") {
 
 TEST_CASE("the number of threads changes at most one level in a thousandth of the pixels") {
     const Frame f = street(150, 100);
-    set_learning_threads(1);
-    const auto one = synthesize(*models().regression, f.background, f.coverage, small_tiles());
-    set_learning_threads(2);
-    const auto two = synthesize(*models().regression, f.background, f.coverage, small_tiles());
-    set_learning_threads(1);
-    CHECK(share_that_differs(one, two, 0) <= 0.001);
-    CHECK(share_that_differs(one, two, 1) == 0);
+    for (const auto& model : {models().regression, models().guided}) {
+        set_learning_threads(1);
+        const auto one = synthesize(*model, f.background, f.coverage, small_tiles());
+        set_learning_threads(2);
+        const auto two = synthesize(*model, f.background, f.coverage, small_tiles());
+        set_learning_threads(1);
+        CHECK(share_that_differs(one, two, 0) <= 0.001);
+        CHECK(share_that_differs(one, two, 1) == 0);
+    }
 }
 
 TEST_CASE("seed, steps and guide change what a diffusion model draws") {

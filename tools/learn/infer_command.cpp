@@ -8,6 +8,7 @@
 #include "tools/progress.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <iostream>
@@ -35,6 +36,13 @@ SynthesisSettings settings_of(const InferOptions& o) {
     s.anchor_latents = s.blend.anchor_colors = !o.no_anchor && !s.tiles.plain;
     s.blend.soft = !o.hard && !s.tiles.plain;
     return s;
+}
+
+/// Largest memory of this process until now, in GiB.
+double peak_memory_gib() {
+    rusage usage = {};
+    getrusage(RUSAGE_SELF, &usage);
+    return double(usage.ru_maxrss) / (1 << 20);
 }
 
 void write_picture(const std::string& path, const Image<Rgba8>& picture, const PngText& text) {
@@ -99,8 +107,8 @@ void infer_command(const InferOptions& o) {
             }
         }
     }
-    std::cout << fmt::format("{}: {} rainy pictures, {} of them were there already\n", o.output, pairs.size() - failed,
-                             kept);
+    std::cout << fmt::format("{}: {} rainy pictures, {} of them were there already; {:.2f} GiB of memory at most\n",
+                             o.output, pairs.size() - failed, kept, peak_memory_gib());
     if (failed > 0)
         throw Error(ExitCode::some_failed, o.output, fmt::format("{} of {} pictures failed", failed, pairs.size()));
 }

@@ -1,4 +1,5 @@
 #include "tools/learn/learn_commands.h"
+#include "tools/learning/crig_config.h"
 #include "tools/learning/default_model.h"
 #include "tools/learning/model_config.h"
 
@@ -23,8 +24,17 @@ std::string unet_text(const UNetConfig& u) {
                        u.context_channels > 0 ? fmt::format(", guide of {} channels", u.context_channels) : "");
 }
 
+void print_crig(const SafetensorsFile& file) {
+    const CrigConfig c = crig_config(file);
+    std::cout << "model         CRIGNet\n";
+    print_part(file, "generator", crig_prefix);
+    std::cout << fmt::format("              {} channels, latent of {} values, label of {}, pictures of {} pixels\n",
+                             c.channels, c.latent, crig_labels, crig_side);
+}
+
 void info_command(const std::string& path) {
     const SafetensorsFile file(path.empty() ? default_model_path() : path);
+    if (is_crig(file)) return print_crig(file);
     const ModelConfig c = model_config(file);
     std::cout << fmt::format("model         {}\n", model_kind_name(c.kind));
     print_part(file, "UNet", unet_prefix);

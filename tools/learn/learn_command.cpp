@@ -46,11 +46,15 @@ void add_learn_command(CLI::App& app) {
     learn->require_subcommand(1);
     add_passed_on(*learn, "infer", "rainy pictures of clean pictures and rain masks");
     add_passed_on(*learn, "train", "train a network on pairs of clean and rainy pictures");
-    add_learn_evaluate_command(*learn);
+    add_passed_on(*learn, "crig", "rain pictures by the published network CRIGNet");
+    add_learn_evaluate_command(*learn, [](const auto&, const auto&, const std::vector<std::string>& arguments) {
+        run_learning_program("evaluate", arguments);
+        return TrainedScores();
+    });
     add_learn_info_command(*learn);
     add_learn_mask_command(*learn);
     learn->footer(
-        "infer and train need libtorch when Pluvia is built: apt-get install libtorch-dev libopenblas0-pthread.\n"
+        "infer, train and crig need libtorch when Pluvia is built: apt-get install libtorch-dev libopenblas0-pthread.\n"
         "Example:\n  pluvia learn mask --rain 50 --size 2048x1024 -o masks\n"
         "  pluvia learn infer --background clean --mask masks -o rainy");
 }

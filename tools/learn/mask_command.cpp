@@ -4,6 +4,8 @@
 #include "renderer/image/image_io.h"
 #include "tools/frame_render.h"
 #include "tools/learn/learn_commands.h"
+#include "tools/learn/picture_files.h"
+#include "tools/learning/crig_config.h"
 #include "tools/progress.h"
 #include "tools/validate/known_scenes.h"
 
@@ -56,11 +58,12 @@ std::vector<Image<float>> streak_coverage(const FrameSettings& settings, const V
     return coverage;
 }
 
-/// White with the coverage as alpha.
+/// The coverage as grey and as alpha: readers of HRI's layers look at alpha, those of CRIGNet's and RainControlNet's
+/// pictures (white streaks on black) at a colour.
 void write_layer(const std::string& path, const Image<float>& coverage, const PngText& text) {
     std::vector<uint8_t> bytes;
     bytes.reserve(coverage.pixels.size() * 4);
-    for (const float a : coverage.pixels) bytes.insert(bytes.end(), {255, 255, 255, byte_from_display(a)});
+    for (const float a : coverage.pixels) bytes.insert(bytes.end(), 4, byte_from_display(a));
     PngWriter writer(path, coverage.width, coverage.height, 4, 8, text);
     writer.write_rows(0, coverage.height, bytes.data());
     writer.finish();
@@ -82,10 +85,14 @@ void mask_command(MaskOptions o) {
     catch_interrupts();
     Progress progress(style, "masks");
     int kept = 0;
+    std::vector<LabelledPicture> list;
     for (r.frame = 0; r.frame < o.frames; ++r.frame) {
-        const auto path_of = [&](double intensity) {
-            return fmt::format("{}/{}mm_frame_{:04}.png", r.output, intensity_label(intensity), r.frame);
+        const auto name_of = [&](double intensity) {
+            return fmt::format("{}mm_frame_{:04}.png", intensity_label(intensity), r.frame);
         };
+        const auto path_of = [&](double intensity) { return r.output + "/" + name_of(intensity); };
+        for (const double i : r.rain)
+            list.push_back({name_of(i), i / crig_mm_per_h - 1, r.wind.empty() ? 0.0 : double(r.wind[0])});
         const bool all_there =
             std::all_of(r.rain.begin(), r.rain.end(), [&](double i) { return fs::exists(path_of(i)); });
         if (all_there && !r.overwrite) {
@@ -99,6 +106,7 @@ void mask_command(MaskOptions o) {
         for (size_t i = 0; i < r.rain.size(); ++i)
             write_layer(path_of(r.rain[i]), coverage[i], {{"pluvia:settings", json_text(to_json(r))}});
     }
+    write_picture_labels(r.output + "/data_info.json", list);
     std::cout << fmt::format("{}: {} rain layers, {} of them were there already\n", r.output,
                              size_t(o.frames) * r.rain.size(), size_t(kept) * r.rain.size());
 }
@@ -110,7 +118,9 @@ void add_learn_mask_command(CLI::App& learn) {
         "mask",
         "Rain layers from mm/h and wind, for pictures without depth: streaks of simulated drops in front of open\n"
         "ground, as the paper composes them, alpha being their coverage. Stands in for the published networks CRIGNet\n"
-        "and RainControlNet, which draw such layers at 256 and 512 pixels. No libtorch is needed.");
+        "and RainControlNet, which draw such layers at 256 and 512 pixels, and keeps their contract: white streaks on\n"
+        "black, and data_info.json with a label of each picture, intensity / 50 mm/h - 1 and wind along X in m/s (the\n"
+        "scale of CRIGNet's own wind, -1 to 1, is not known). No libtorch is needed.");
     auto options = std::make_shared<MaskOptions>();
     options->render.size = "2048x1024";
     options->render.spp = 16;
@@ -124,6 +134,13 @@ void add_learn_mask_command(CLI::App& learn) {
     command->add_option("--camera-velocity", r.camera_velocity, "X,Y,Z in m/s")->delimiter(',');
     command->add_option("--focal-length", r.focal_length, "mm, of a sensor 36 mm wide; default: 34 degrees of height");
     command->add_option("--shutter", r.shutter, "exposure time, s")->capture_default_str();
+    command
+        ->add_option("--streak-distance", r.streak_distance,
+                     "metres beyond which drops are drawn as wide as at it; 1.78 = the published code, 0 = true width")
+        ->capture_default_str();
+    command
+        ->add_option("--streak-share", r.streak_share, "share of the drops that is drawn; 0.024 = the published code")
+        ->capture_default_str();
     command->add_option("--spp", r.spp, "samples per pixel")->capture_default_str();
     command->add_option("--seed", r.seed, "another seed, other drops")->capture_default_str();
     command->add_option("--threads", r.threads, "0: all")->capture_default_str();

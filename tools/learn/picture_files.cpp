@@ -1,8 +1,10 @@
 #include "tools/learn/picture_files.h"
 
 #include "renderer/core/error.h"
+#include "renderer/image/pending_file.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
@@ -53,6 +55,14 @@ std::vector<PicturePair> pair_pictures(const std::string& backgrounds, const std
             pairs.push_back({name, path, found->second});
         }
     return pairs;
+}
+
+void write_picture_labels(const std::string& path, const std::vector<LabelledPicture>& pictures) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const LabelledPicture& p : pictures) list.push_back({{"img", p.name}, {"label", {p.intensity, p.wind}}});
+    PendingFile file(path);
+    file.stream() << list.dump(2) << "\n";
+    file.commit();
 }
 
 }  // namespace pluvia

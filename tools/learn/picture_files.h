@@ -18,4 +18,12 @@ struct PicturePair {
 /// A single picture on one side goes with all of the other. Throws Error (input) naming one without partner.
 std::vector<PicturePair> pair_pictures(const std::string& backgrounds, const std::string& masks);
 
+/// A rain picture and CRIGNet's label of it: intensity / 50 mm/h - 1, and wind.
+struct LabelledPicture {
+    std::string name;
+    double intensity, wind;
+};
+/// A list as CRIGNet has it beside its pictures: [{"img": name, "label": [intensity, wind]}, ...].
+void write_picture_labels(const std::string& path, const std::vector<LabelledPicture>& pictures);
+
 }  // namespace pluvia

@@ -1,5 +1,7 @@
 #include "tools/learning/first_stage.h"
 
+#include "tools/learning/strips.h"
+
 #include <algorithm>
 
 namespace pluvia {
@@ -19,8 +21,10 @@ FirstStage::Residual::Residual(const Parameters& p, int64_t in, int64_t out)
 }
 
 at::Tensor FirstStage::Residual::operator()(const at::Tensor& x) const {
-    const at::Tensor h = conv1(swish(norm1(x)));
-    return (shortcut ? (*shortcut)(x) : x) + conv2(swish(norm2(h)));
+    at::Tensor h = convolve_normed(norm1, conv1, x);
+    h = convolve_normed(norm2, conv2, h);  // what went in is let go
+    if (c10::GradMode::is_enabled()) return (shortcut ? (*shortcut)(x) : x) + h;
+    return h.add_(shortcut ? convolve(*shortcut, x) : x);
 }
 
 FirstStage::Middle::Middle(const Parameters& p, int64_t channels)
@@ -78,14 +82,14 @@ FirstStage::FirstStage(const Parameters& p, const FirstStageConfig& config)
       codes_(p.part("quantize.embedding").get("weight", {config.codes, config.code_channels}, {Start::uniform})) {}
 
 at::Tensor FirstStage::encode(const at::Tensor& picture) const {
-    at::Tensor h = encoder_.conv_in(picture);
+    at::Tensor h = convolve(encoder_.conv_in, picture);
     for (const Level& level : encoder_.levels) {
         for (const Residual& block : level.blocks) h = block(h);
         // Padded on the right and below only, as the original is.
         if (level.resize) h = (*level.resize)(at::constant_pad_nd(h, {0, 1, 0, 1}));
     }
     h = encoder_.middle(h);
-    return before_codes_(encoder_.conv_out(swish(encoder_.norm_out(h))));
+    return before_codes_(convolve_normed(encoder_.norm_out, encoder_.conv_out, h));
 }
 
 at::Tensor FirstStage::quantize(const at::Tensor& latent) const {
@@ -108,9 +112,9 @@ at::Tensor FirstStage::decode(const at::Tensor& latent) const {
     h = decoder_.middle(h);
     for (const Level& level : decoder_.levels) {
         for (const Residual& block : level.blocks) h = block(h);
-        if (level.resize) h = (*level.resize)(double_size(h));
+        if (level.resize) h = convolve_doubled(*level.resize, h);
     }
-    return decoder_.conv_out(swish(decoder_.norm_out(h)));
+    return convolve_normed(decoder_.norm_out, decoder_.conv_out, h);
 }
 
 }  // namespace pluvia

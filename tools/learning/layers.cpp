@@ -29,8 +29,12 @@ GroupNorm::GroupNorm(const Parameters& p, int64_t channels, double epsilon_)
       bias(p.get("bias", {channels}, {Start::zero})),
       epsilon(epsilon_) {}
 
+int64_t GroupNorm::groups() const {
+    return std::gcd(int64_t(32), weight.size(0));
+}
+
 at::Tensor GroupNorm::operator()(const at::Tensor& x) const {
-    return at::group_norm(x, std::gcd(int64_t(32), x.size(1)), weight, bias, epsilon);
+    return at::group_norm(x, groups(), weight, bias, epsilon);
 }
 
 at::Tensor swish(at::Tensor x) {

@@ -29,6 +29,7 @@ struct GroupNorm {
     double epsilon;
 
     GroupNorm(const Parameters& p, int64_t channels, double epsilon);
+    int64_t groups() const;
     at::Tensor operator()(const at::Tensor& x) const;
 };
 
