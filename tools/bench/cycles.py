@@ -1,12 +1,15 @@
 """Renders a glTF file in Blender's Cycles with an equirectangular environment, as the partner of `pluvia render`.
 
 Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.exr WIDTH HEIGHT SPP ENVIRONMENT [SEED
-       [FRAME.json]] [--lambert]
+       [FRAME.json]] [--lambert] [--conform] [--frame N]
 ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
 instead of the file's. --lambert: what does not glow reflects as Lambert's law has it; without, only materials named
-"lambert..." do. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+"lambert..." do. --conform: materials as the glTF
+specification has them, by cycles_gltf.py. --frame:
+of an animation, at 24 a second. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
 """
 import json
+import os
 import sys
 import time
 
@@ -16,15 +19,22 @@ numpy.bool = bool  # Blender 3.4's glTF importer uses the name that newer numpy 
 import bpy
 from mathutils import Matrix
 
+sys.path.append(os.path.dirname(os.path.abspath(__file__)))
+import cycles_gltf
+
 arguments = sys.argv[sys.argv.index("--") + 1 :]
-lambert = "--lambert" in arguments
-arguments = [a for a in arguments if a != "--lambert"]
+lambert, conform = "--lambert" in arguments, "--conform" in arguments
+frame_number = int(arguments[arguments.index("--frame") + 1]) if "--frame" in arguments else None
+arguments = [a for i, a in enumerate(arguments) if not a.startswith("--") and arguments[i - 1] != "--frame"]
 scene_file, out, width, height, samples, environment = arguments[:6]
 seed = int(arguments[6]) if len(arguments) > 6 else 0
 
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.import_scene.gltf(filepath=scene_file)
 scene = bpy.context.scene
+if frame_number is not None:
+    scene.render.fps = 24
+    scene.frame_set(frame_number)
 scene.render.engine = "CYCLES"
 cycles = scene.cycles
 cycles.device, cycles.samples, cycles.seed = "CPU", int(samples), seed
@@ -81,6 +91,9 @@ def make_lambert(tree):
 for material in bpy.data.materials:
     if material.use_nodes and (lambert or material.name.startswith("lambert")):
         make_lambert(material.node_tree)
+
+if conform:
+    cycles_gltf.make_all_conforming(scene_file)
 
 start = time.time()
 bpy.ops.render.render(write_still=True)

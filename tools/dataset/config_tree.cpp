@@ -31,6 +31,7 @@ ConfigNode converted(const YAML::Node& node, const std::string& path, int depth,
             break;
         case YAML::NodeType::Sequence:
             result.kind = ConfigNode::Kind::list;
+            result.items.reserve(node.size());
             for (const YAML::Node& item : node) result.items.push_back(converted(item, path, depth + 1, size));
             break;
         case YAML::NodeType::Map:
