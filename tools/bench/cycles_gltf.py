@@ -79,16 +79,103 @@ def glossy(tree, roughness, normal):
     return node.outputs[0]
 
 
-def make_conforming(material, source):
-    """What changes, and why, from the importer's Principled BSDF to the glTF specification's material."""
-    tree = material.node_tree
+def value_of_removed(tree, socket):
+    """What drives an input, which gets 0 instead."""
+    value = value_of(socket)
+    for link in list(socket.links):
+        tree.links.remove(link)
+    socket.default_value = 0
+    return value
+
+
+# What each of these returns lies over the shader that it is given, or stands for it; None where all is well.
+
+
+def dielectric(tree, node, source):
+    """Lambert's below a reflecting surface that takes from it; Principled has Disney's diffuse, whole.
+
+    Fresnel's law for the surface's normal is that of microfacets only where these are nearly smooth."""
+    extensions, rough = source.get("extensions", {}), value_of(node.inputs["Roughness"])
+    matt = extensions.get("KHR_materials_specular", {}).get("specularFactor", 1) == 0
+    smooth = isinstance(rough, float) and rough < 0.15 and "KHR_materials_specular" not in extensions
+    others = {"KHR_materials_sheen", "KHR_materials_transmission"} & set(extensions)
+    if value_of(node.inputs["Metallic"]) != 0 or not (matt or smooth) or others:
+        return None
+    diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+    copy_input(tree, node.inputs["Base Color"], diffuse.inputs["Color"])
+    copy_input(tree, node.inputs["Normal"], diffuse.inputs["Normal"])
+    result = diffuse.outputs[0]
+    if not matt:
+        share = fresnel(tree, node.inputs["IOR"].default_value, node.inputs["Normal"])
+        result = mix_shaders(tree, share, result, glossy(tree, rough, node.inputs["Normal"]))
+    if node.inputs["Emission"].links or max(node.inputs["Emission"].default_value[:3]) > 0:
+        glow = tree.nodes.new("ShaderNodeEmission")
+        copy_input(tree, node.inputs["Emission"], glow.inputs["Color"])
+        copy_input(tree, node.inputs["Emission Strength"], glow.inputs["Strength"])
+        result = add_shaders(tree, result, glow.outputs[0])
+    if source.get("alphaMode", "OPAQUE") != "OPAQUE":
+        clear = tree.nodes.new("ShaderNodeBsdfTransparent")
+        result = mix_shaders(tree, value_of(node.inputs["Alpha"]), clear.outputs[0], result)
+    return lambda _: result
+
+
+def thin_pane(tree, node, source):
+    """What transmits without a volume is an infinitely thin sheet: it bends nothing, and 2R/(1+R) is reflected by both
+    its faces. What is rough stays as it is: Cycles has no sheet that scatters without bending."""
+    extensions, rough = source.get("extensions", {}), value_of(node.inputs["Roughness"])
+    metallic = value_of(node.inputs["Metallic"])
+    if "KHR_materials_transmission" not in extensions or "KHR_materials_volume" in extensions:
+        return None
+    if metallic != 1 and not (isinstance(rough, float) and rough < 0.05):
+        return None
+    passing = math_node(tree, "MULTIPLY", value_of_removed(tree, node.inputs["Transmission"]),
+                        math_node(tree, "SUBTRACT", 1.0, metallic))
+    once = fresnel(tree, node.inputs["IOR"].default_value, node.inputs["Normal"])
+    both = math_node(tree, "DIVIDE", math_node(tree, "MULTIPLY", once, 2.0), math_node(tree, "ADD", once, 1.0))
+    through = tree.nodes.new("ShaderNodeBsdfTransparent")
+    copy_input(tree, node.inputs["Base Color"], through.inputs["Color"])
+    pane = mix_shaders(tree, both, through.outputs[0], glossy(tree, rough, node.inputs["Normal"]))
+    return lambda base: mix_shaders(tree, passing, base, pane)
+
+
+def coat(tree, node, source):
+    """Of index 1.5: reflects by Fresnel and leaves the rest to the base; Principled's reflects a quarter of it and takes
+    nothing away."""
+    if "KHR_materials_clearcoat" not in source.get("extensions", {}):
+        return None
+    normal = node.inputs["Clearcoat Normal"]
+    share = math_node(tree, "MULTIPLY", fresnel(tree, 1.5, normal), value_of_removed(tree, node.inputs["Clearcoat"]))
+    varnish = glossy(tree, value_of(node.inputs["Clearcoat Roughness"]), normal)
+    return lambda base: mix_shaders(tree, share, base, varnish)
+
+
+def brushed_metal(tree, node, source):
+    """The importer knows no anisotropy. Strength s makes the roughness squared along the turned tangent
+    r^2 + (1 - r^2) s^2; the node's own parameters are their geometric mean and the root of their ratio."""
+    anisotropy = source.get("extensions", {}).get("KHR_materials_anisotropy")
+    if anisotropy is None:
+        return None
+    across = source["pbrMetallicRoughness"].get("roughnessFactor", 1) ** 2
+    along = across + (1 - across) * anisotropy.get("anisotropyStrength", 0) ** 2
+    brushed = tree.nodes.new("ShaderNodeBsdfAnisotropic")
+    brushed.distribution = "MULTI_GGX"
+    brushed.inputs["Color"].default_value = node.inputs["Base Color"].default_value
+    brushed.inputs["Roughness"].default_value = (along * across) ** 0.25
+    brushed.inputs["Anisotropy"].default_value = (across / along) ** 0.5 - 1
+    brushed.inputs["Rotation"].default_value = anisotropy.get("anisotropyRotation", 0) / (2 * math.pi)
+    tangent = tree.nodes.new("ShaderNodeTangent")
+    tangent.direction_type = "UV_MAP"
+    tree.links.new(tangent.outputs[0], brushed.inputs["Tangent"])
+    return lambda _: brushed.outputs[0]
+
+
+def make_conforming(tree, source):
     # The importer takes the number that its node for a coloured emissiveFactor puts out, and not the colour.
     for node in [n for n in tree.nodes if n.label == "Emissive Factor"]:
         for link in list(node.outputs[0].links):
             tree.links.new(node.outputs[2], link.to_socket)
-    extensions = source.get("extensions", {})
     # Of what the older workflow's specular colour reflects nothing is left to the diffuse part.
-    old = extensions.get("KHR_materials_pbrSpecularGlossiness")
+    old = source.get("extensions", {}).get("KHR_materials_pbrSpecularGlossiness")
     for node in [n for n in tree.nodes if old is not None and n.type in ("BSDF_DIFFUSE", "BSDF_GLOSSY")]:
         if node.type == "BSDF_GLOSSY":
             node.distribution = "MULTI_GGX"
@@ -96,76 +183,14 @@ def make_conforming(material, source):
             left = 1 - max(old.get("specularFactor", [1, 1, 1]))
             node.inputs["Color"].default_value = [left * c for c in node.inputs["Color"].default_value[:3]] + [1]
     for node in [n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"]:
-        made = []
-        metallic = value_of(node.inputs["Metallic"])
-        # A dielectric is Lambert's below a reflecting surface that takes from it; Principled has Disney's diffuse, whole.
-        if metallic == 0 and source.get("alphaMode", "OPAQUE") == "OPAQUE" and not (
-                {"KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_transmission"} & set(extensions)):
-            matt = tree.nodes.new("ShaderNodeBsdfDiffuse")
-            copy_input(tree, node.inputs["Base Color"], matt.inputs["Color"])
-            copy_input(tree, node.inputs["Normal"], matt.inputs["Normal"])
-            share = fresnel(tree, node.inputs["IOR"].default_value, node.inputs["Normal"])
-            lobe = glossy(tree, value_of(node.inputs["Roughness"]), node.inputs["Normal"])
-            made.append(lambda base, matt=matt, lobe=lobe, share=share: mix_shaders(tree, share, matt.outputs[0], lobe))
-            if node.inputs["Emission"].links or max(node.inputs["Emission"].default_value[:3]) > 0:
-                glow = tree.nodes.new("ShaderNodeEmission")
-                copy_input(tree, node.inputs["Emission"], glow.inputs["Color"])
-                copy_input(tree, node.inputs["Emission Strength"], glow.inputs["Strength"])
-                made.append(lambda base, glow=glow: add_shaders(tree, base, glow.outputs[0]))
-        # Light that a rough surface reflects more than once is not lost.
-        node.distribution = "MULTI_GGX"
-        # A mask cuts, it does not blend.
-        if source.get("alphaMode") == "MASK":
-            connect(tree, math_node(tree, "GREATER_THAN", value_of(node.inputs["Alpha"]), source.get("alphaCutoff", 0.5) - 1e-6),
-                    node.inputs["Alpha"])
-        # What transmits without a volume is an infinitely thin sheet: it bends nothing. Of both its faces 2R/(1+R) is
-        # reflected.
-        # What is rough and transmits stays as it is: Cycles has no sheet that scatters without bending.
-        rough = value_of(node.inputs["Roughness"])
-        if extensions.get("KHR_materials_transmission") and not extensions.get("KHR_materials_volume") and (
-                metallic == 1 or isinstance(rough, float) and rough < 0.05):
-            share = value_of(node.inputs["Transmission"])
-            node.inputs["Transmission"].default_value = 0
-            for link in list(node.inputs["Transmission"].links):
-                tree.links.remove(link)
-            share = math_node(tree, "MULTIPLY", share, math_node(tree, "SUBTRACT", 1.0, metallic))
-            once = fresnel(tree, node.inputs["IOR"].default_value, node.inputs["Normal"])
-            both = math_node(tree, "DIVIDE", math_node(tree, "MULTIPLY", once, 2.0), math_node(tree, "ADD", once, 1.0))
-            through = tree.nodes.new("ShaderNodeBsdfTransparent")
-            copy_input(tree, node.inputs["Base Color"], through.inputs["Color"])
-            pane = mix_shaders(tree, both, through.outputs[0],
-                               glossy(tree, value_of(node.inputs["Roughness"]), node.inputs["Normal"]))
-            made.append(lambda base, pane=pane, share=share: mix_shaders(tree, share, base, pane))
-        # A coat of index 1.5 reflects by Fresnel and leaves the rest to the base; Principled's reflects a quarter of it
-        # and takes nothing away.
-        coat = extensions.get("KHR_materials_clearcoat")
-        if coat:
-            share = math_node(tree, "MULTIPLY", fresnel(tree, 1.5, node.inputs["Clearcoat Normal"]),
-                              value_of(node.inputs["Clearcoat"]))
-            lobe = glossy(tree, value_of(node.inputs["Clearcoat Roughness"]), node.inputs["Clearcoat Normal"])
-            node.inputs["Clearcoat"].default_value = 0
-            for link in list(node.inputs["Clearcoat"].links):
-                tree.links.remove(link)
-            made.append(lambda base, share=share, lobe=lobe: mix_shaders(tree, share, base, lobe))
-        # The importer knows no anisotropy. Strength s makes the roughness squared along the turned tangent
-        # r^2 + (1 - r^2) s^2; the node's own parameters are their geometric mean and the root of their ratio.
-        aniso = extensions.get("KHR_materials_anisotropy")
-        if aniso:
-            across = source["pbrMetallicRoughness"].get("roughnessFactor", 1) ** 2
-            along = across + (1 - across) * aniso.get("anisotropyStrength", 0) ** 2
-            lobe = tree.nodes.new("ShaderNodeBsdfAnisotropic")
-            lobe.distribution = "MULTI_GGX"
-            lobe.inputs["Color"].default_value = node.inputs["Base Color"].default_value
-            lobe.inputs["Roughness"].default_value = (along * across) ** 0.25
-            lobe.inputs["Anisotropy"].default_value = (across / along) ** 0.5 - 1
-            lobe.inputs["Rotation"].default_value = aniso.get("anisotropyRotation", 0) / (2 * math.pi)
-            tangent = tree.nodes.new("ShaderNodeTangent")
-            tangent.direction_type = "UV_MAP"
-            tree.links.new(tangent.outputs[0], lobe.inputs["Tangent"])
-            made.append(lambda base, lobe=lobe: lobe.outputs[0])
+        node.distribution = "MULTI_GGX"  # light that a rough surface reflects more than once is not lost
+        if source.get("alphaMode") == "MASK":  # cuts and does not blend
+            limit = source.get("alphaCutoff", 0.5) - 1e-6
+            connect(tree, math_node(tree, "GREATER_THAN", value_of(node.inputs["Alpha"]), limit), node.inputs["Alpha"])
         result, targets = node.outputs["BSDF"], [link.to_socket for link in node.outputs["BSDF"].links]
-        for layer in made:
-            result = layer(result)
+        for layer in (dielectric, thin_pane, coat, brushed_metal):
+            over = layer(tree, node, source)
+            result = over(result) if over else result
         for target in targets:
             tree.links.new(result, target)
 
@@ -174,4 +199,4 @@ def make_all_conforming(path):
     described = {m.get("name"): m for m in gltf_materials(path)}
     for material in bpy.data.materials:
         if material.use_nodes and material.name in described and not material.name.startswith("lambert"):
-            make_conforming(material, described[material.name])
+            make_conforming(material.node_tree, described[material.name])

@@ -40,6 +40,7 @@ MATT = dict(material(specular={"specularFactor": 0}), name="lambert")
 RED = {"baseColorFactor": [0.6, 0.05, 0.03, 1]}
 SPHERES = {
     "plastic": material(dict(RED, roughnessFactor=0.4)),
+    "gloss": material(dict(RED, roughnessFactor=0.1)),
     "metal": material({"baseColorFactor": [0.9, 0.6, 0.3, 1], "metallicFactor": 1, "roughnessFactor": 0.35}),
     "car_paint": material(dict(RED, metallicFactor=0.3, roughnessFactor=0.5),
                           clearcoat={"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.1}),
@@ -49,6 +50,8 @@ SPHERES = {
                      emissive_strength={"emissiveStrength": 4}, specular={"specularFactor": 0}),
     "glass_body": material({"baseColorFactor": [1, 1, 1, 1], "roughnessFactor": 0},
                            transmission={"transmissionFactor": 1}, volume={"thicknessFactor": 1}, ior={"ior": 1.5}),
+    "varnish": material(RED, clearcoat={"clearcoatFactor": 1, "clearcoatRoughnessFactor": 0.1},
+                        specular={"specularFactor": 0}),
     # Reflects everything, so that what a model loses or makes shows.
     "white_metal": material({"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": 0.5}),
     "rough_metal": material({"baseColorFactor": [0.8, 0.8, 0.8, 1], "metallicFactor": 1, "roughnessFactor": 1}),
@@ -63,6 +66,8 @@ SHEETS = {
     "veil": material({"baseColorFactor": [0.2, 0.5, 0.2, 0.5]}, alphaMode="BLEND"),
     "leaves": material({"baseColorTexture": {"index": 0}}, alphaMode="BLEND"),
     "cut_leaves": material({"baseColorTexture": {"index": 0}}, alphaMode="MASK", alphaCutoff=0.4),
+    "matt_cut_leaves": material({"baseColorTexture": {"index": 0}}, alphaMode="MASK", alphaCutoff=0.4,
+                                specular={"specularFactor": 0}),
     "neon": dict(material({"baseColorFactor": [0, 0, 0, 1]}, emissiveFactor=[1, 1, 1],
                           emissive_strength={"emissiveStrength": 3}), emissiveTexture={"index": 2}),
     "bumps": dict(material({"baseColorFactor": [0.6, 0.6, 0.6, 1], "roughnessFactor": 0.4}),
@@ -167,18 +172,18 @@ class Draft:
         self.mesh([[centre[k] + radius * n[k] for k in range(3)] for n in normals], normals, triangles, made, place,
                   TEXCOORD_0=uv)
 
-    def pipe(self, made, rings=24, segments=48):
-        """Upright, as high as 1.5 m, all vertices at rest; rows of points from the bottom up."""
+    def pipe(self, rings=24, segments=48):
+        """Positions, normals and triangles of one that stands upright, 1.5 m high."""
         rows = [(1.5 * i / rings, 2 * math.pi * k / segments) for i in range(rings + 1) for k in range(segments + 1)]
         w = segments + 1
         triangles = [t for i in range(rings) for a in range(i * w, i * w + segments)
-                     for t in ((a, a + w, a + 1), (a + 1, a + w, a + w + 1))]
+                     for t in ((a, a + 1, a + w), (a + 1, a + w + 1, a + w))]
         return [[0.3 * math.sin(a), y, 0.3 * math.cos(a)] for y, a in rows], \
                [[math.sin(a), 0, math.cos(a)] for _, a in rows], triangles
 
     def skinned_pipe(self, made):
         """Bent by a joint at half its height, which turns over a second: at 12 of 24 frames by half."""
-        positions, normals, triangles = self.pipe(made)
+        positions, normals, triangles = self.pipe()
         shares = [min(max((p[1] - 0.5) / 0.5, 0), 1) for p in positions]
         self.mesh(positions, normals, triangles, made, {"skin": 0}, JOINTS_0=[[0, 1, 0, 0]] * len(positions),
                   WEIGHTS_0=[[1 - s, s, 0, 0] for s in shares])
@@ -193,7 +198,7 @@ class Draft:
 
     def morphed_pipe(self, made):
         """A pipe that bulges over a second, normals and all."""
-        positions, normals, triangles = self.pipe(made)
+        positions, normals, triangles = self.pipe()
         bulge = [0.5 * math.sin(math.pi * p[1] / 1.5) for p in positions]
         self.mesh(positions, normals, triangles, made, None, {"weights": [0]})
         moved = [[b * n[0], 0, b * n[2]] for b, n in zip(bulge, normals)]
@@ -293,10 +298,10 @@ def measure(options, path):
         run([options.pluvia, "render", path, "-o", ours[seed], "--size", options.size, "--spp", options.spp, "--seed", str(seed),
              "--environment", options.environment, "--layers", "instance", "--frame", str(frame), "--progress", "none",
              "--overwrite", *exposure])
-        for kind in kinds:
-            run(["blender", "-b", "--factory-startup", "-P", HERE + "/cycles.py", "--", path, theirs[kind][seed],
-                 *options.size.split("x"), options.spp, options.environment, str(seed), ours[0] + "/frame.json",
-                 "--frame", str(frame), *(["--conform"] if kind == "conform" else [])])
+    conform = ["--conform", f"{options.folder}/{name}_conform_%d.exr"] if options.conform else []
+    run(["blender", "-b", "--factory-startup", "-P", HERE + "/cycles.py", "--", path, f"{options.folder}/{name}_cycles_%d.exr",
+         *options.size.split("x"), options.spp, options.environment, "0,1", ours[0] + "/frame.json", "--frame", str(frame),
+         *conform])
     with open(ours[0] + "/frame.json", encoding="utf-8") as file:
         ev = 2.1 if exposure else json.load(file)["exposure_ev100"]
     side_by_side(options, ours[0], [theirs[kind][0] for kind in kinds], ev, f"{options.folder}/{name}.png")
