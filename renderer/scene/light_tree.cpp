@@ -152,65 +152,51 @@ float LightTree::sum(const Lanes& lanes) {
     return total;
 }
 
-/// By importance, of which there is some; u becomes a number for what lies within.
-int LightTree::choose_lane(const Lanes& importance, float total, float& u) {
-    int lane = -1;
-    float left = u * total;
-    for (int i = 0; i < width; ++i) {
-        if (importance[i] == 0) continue;
-        lane = i;  // rounding may carry u beyond the sum: then it is the last child that counts
-        if (left < importance[i]) break;
-        left -= importance[i];
-    }
-    u = std::clamp(left / importance[lane], 0.0f, 0x1.fffffep-1f);
-    return lane;
-}
-
 std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, float u) const {
-    if (nodes_.empty()) return std::nullopt;
-    float probability = 1;
-    for (const Node* node = nodes_.data();;) {
-        const Lanes importance = importances(*node, receiver);
-        const float total = sum(importance);
-        if (!(total > 0)) return std::nullopt;
-        const int lane = choose_lane(importance, total, u);
-        probability *= importance[lane] / total;
-        if (node->child[lane] < 0) return Choice{~node->child[lane], probability};
-        node = &nodes_[node->child[lane]];
-    }
+    Choice choice;
+    choose(receiver, u, {&choice, 1});
+    return choice.light < 0 ? std::nullopt : std::optional(choice);
 }
 
 void LightTree::choose(const Receiver& receiver, float u, std::span<Choice> choices) const {
+    struct Part {
+        int node;
+        size_t begin, end;
+    };
+    std::array<Part, max_choices> parts;  // of the choices, in their order, with the nodes that they have come to
     std::array<float, max_choices> numbers;
-    std::array<int, max_choices> at;  // node, -1: arrived
     const size_t count = std::min(choices.size(), max_choices);
     for (size_t i = 0; i < count; ++i) {
         numbers[i] = std::min((float(i) + u) / float(count), 0x1.fffffep-1f);
-        at[i] = nodes_.empty() ? -1 : 0;
         choices[i] = {-1, 1};
     }
-    for (bool on_the_way = true; on_the_way;) {
-        on_the_way = false;
-        int node = -1;  // whose importances these are
-        Lanes importance;
+    size_t part_count = 0;
+    if (!nodes_.empty()) parts[part_count++] = {0, 0, count};
+    while (part_count > 0) {
+        const Part part = parts[--part_count];
+        const Node& node = nodes_[part.node];
+        const Lanes importance = importances(node, receiver);
+        Lanes below;  // sum of the importances before a lane's
         float total = 0;
-        for (size_t i = 0; i < count; ++i) {
-            if (at[i] < 0) continue;
-            if (at[i] != node) {
-                node = at[i];
-                importance = importances(nodes_[node], receiver);
-                total = sum(importance);
+        int last = 0;
+        for (int i = 0; i < width; ++i) {
+            below[i] = total;
+            total += importance[i];
+            if (importance[i] > 0) last = i;  // rounding may carry a number beyond the sum: then this one counts
+        }
+        if (!(total > 0)) continue;
+        int lane = 0;
+        for (size_t i = part.begin; i < part.end;) {
+            while (lane < last && numbers[i] * total >= below[lane + 1]) ++lane;
+            const size_t first = i;
+            const float share = importance[lane] / total;
+            for (; i < part.end && (lane == last || numbers[i] * total < below[lane + 1]); ++i) {
+                // What is left of the number decides within the child.
+                numbers[i] = std::clamp((numbers[i] * total - below[lane]) / importance[lane], 0.0f, 0x1.fffffep-1f);
+                choices[i].probability *= share;
+                if (node.child[lane] < 0) choices[i].light = ~node.child[lane];
             }
-            at[i] = -1;
-            if (!(total > 0)) continue;
-            const int lane = choose_lane(importance, total, numbers[i]), child = nodes_[node].child[lane];
-            choices[i].probability *= importance[lane] / total;
-            if (child < 0) {
-                choices[i].light = ~child;
-            } else {
-                at[i] = child;
-                on_the_way = true;
-            }
+            if (node.child[lane] >= 0) parts[part_count++] = {node.child[lane], first, i};
         }
     }
 }

@@ -59,7 +59,6 @@ private:
 
     static Lanes importances(const Node& node, const Receiver& receiver);
     static float sum(const Lanes& lanes);
-    static int choose_lane(const Lanes& importance, float total, float& u);
     struct Branch;
     static Branch build(std::vector<std::pair<int, LightBounds>>& lights, int begin, int end);
     void add_node(const Branch& branch, int parent, int place_in_parent);

@@ -9,20 +9,20 @@
 namespace pluvia {
 namespace {
 
-/// Luminance of an emissive triangle averaged over a few fixed points. Never zero where the texture might shine: a
-/// light that is never chosen would be missing from the picture.
-float mean_emission(const Scene& scene, int instance, int triangle) {
+/// Of an emissive triangle, over a few fixed points. No component is zero where the texture might shine: a light that
+/// is never chosen would be missing from the picture.
+Rgb mean_emission(const Scene& scene, int instance, int triangle) {
     const Material& material = scene.materials[scene.meshes[scene.instances[instance].mesh].material];
-    const float untextured = luminance(material.emission);
-    if (!material.emission_texture.used()) return untextured;
+    if (!material.emission_texture.used()) return material.emission;
     constexpr int n = 4;
-    float sum = 0;
+    Rgb sum;
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) {
             const Vec2 b = sample_triangle({(i + 0.5f) / n, (j + 0.5f) / n});
-            sum += luminance(emission(scene, {instance, triangle, b.x, b.y}));
+            sum += emission(scene, {instance, triangle, b.x, b.y});
         }
-    return std::max(sum / (n * n), 1e-3f * untextured);
+    const Rgb mean = sum / float(n * n), least = material.emission * 1e-3f;
+    return {std::max(mean.r, least.r), std::max(mean.g, least.g), std::max(mean.b, least.b)};
 }
 
 /// Falloff between the cones of a spot light; KHR_lights_punctual, "Inner and Outer Cone Angles".
@@ -79,6 +79,7 @@ void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
         const auto corner = corners(*scene_, instance, k);
         const Vec3d normal = front_normal(*scene_, instance, k);
         const double area = 0.5 * length(normal);
+        const Rgb mean = mean_emission(*scene_, instance, k);
         LightBounds b;
         b.lower = Vec3(min(corner[0], min(corner[1], corner[2])));
         b.upper = Vec3(max(corner[0], max(corner[1], corner[2])));
@@ -86,10 +87,10 @@ void Lights::add_triangles(int instance, std::vector<LightBounds>& all) {
             b.axis = Vec3(normalize(normal));
             b.cos_spread = 1;
             b.two_sided = two_sided;
-            b.power = (two_sided ? 2 : 1) * pi * float(area) * mean_emission(*scene_, instance, k);
+            b.power = (two_sided ? 2 : 1) * pi * float(area) * luminance(mean);
         }
-        triangles_.push_back(
-            {instance, k, Vec3(corner[0]), Vec3(corner[1] - corner[0]), Vec3(corner[2] - corner[0]), Vec3(normal)});
+        triangles_.push_back({instance, k, Vec3(corner[0]), Vec3(corner[1] - corner[0]), Vec3(corner[2] - corner[0]),
+                              Vec3(normal), mean, two_sided});
         all.push_back(b);
     }
 }
@@ -115,33 +116,42 @@ Vec3 Lights::position(const LocalPoint& point) const {
 }
 
 LightSample Lights::illuminate(Vec3 place, const LocalPoint& point) const {
-    const int punctual_count = int(punctual_.size());
-    if (point.light >= punctual_count)
-        return triangle_light(place, triangles_[point.light - punctual_count], point.probability, point.u);
+    if (point.light < int(punctual_.size())) return punctual_light(place, punctual_[point.light], point.probability);
+    return triangle_light(place, point, [&](const EmissiveTriangle& triangle, Vec2 b) {
+        const SurfacePoint on_it{triangle.instance, triangle.triangle, b.x, b.y};
+        return emission(*scene_, on_it) * opacity(*scene_, on_it);
+    });
+}
 
-    const PunctualLight& light = punctual_[point.light];
+LightSample Lights::estimate(Vec3 place, const LocalPoint& point) const {
+    if (point.light < int(punctual_.size())) return punctual_light(place, punctual_[point.light], point.probability);
+    return triangle_light(place, point, [](const EmissiveTriangle& triangle, Vec2) { return triangle.mean_emission; });
+}
+
+LightSample Lights::punctual_light(Vec3 place, const PunctualLight& light, float probability) const {
     const Vec3 to_light = Vec3(light.position - Vec3d(place));
     const float distance_squared = length_squared(to_light);
     if (distance_squared == 0) return {Vec3(0, 1, 0), 0, Rgb(0), 1, true};
     const float distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
     const float falloff = light.kind == PunctualLight::Kind::spot ? spot_falloff(light, -wi) : 1.0f;
-    return {wi, distance, light.intensity * (falloff / distance_squared), point.probability, true};
+    return {wi, distance, light.intensity * (falloff / distance_squared), probability, true};
 }
 
-LightSample Lights::triangle_light(Vec3 place, const EmissiveTriangle& triangle, float probability, Vec2 u) const {
-    const Vec2 b = sample_triangle(u);
+/// emission: radiance of a triangle at a point with barycentric coordinates.
+template <class Emission>
+LightSample Lights::triangle_light(Vec3 place, const LocalPoint& point, const Emission& emission) const {
+    const EmissiveTriangle& triangle = triangles_[point.light - int(punctual_.size())];
+    const Vec2 b = sample_triangle(point.u);
     const Vec3 to_light = triangle.point(b.x, b.y) - place;
     const float distance_squared = length_squared(to_light), distance = std::sqrt(distance_squared);
     const Vec3 wi = to_light / distance;
+    const float cosine = dot(triangle.front, wi);
     // dA to solid angle; |front| is twice the area, so the cosine and the area are both in this product.
-    const float projected_area = 0.5f * std::abs(dot(triangle.front, wi));
-    const SurfacePoint point{triangle.instance, triangle.triangle, b.x, b.y};
-    const Material& material = scene_->materials[scene_->meshes[scene_->instances[triangle.instance].mesh].material];
-    const bool dark_side = dot(triangle.front, wi) > 0 && !material.double_sided;
+    const float projected_area = 0.5f * std::abs(cosine);
+    const bool dark_side = cosine > 0 && !triangle.two_sided;
     if (dark_side || projected_area == 0 || distance_squared == 0) return {wi, distance, Rgb(0), 1, false};
-    return {wi, distance, emission(*scene_, point) * opacity(*scene_, point),
-            probability * distance_squared / projected_area, false};
+    return {wi, distance, emission(triangle, b), point.probability * distance_squared / projected_area, false};
 }
 
 float Lights::pdf_local(const Receiver& receiver, const SurfacePoint& point) const {

@@ -46,6 +46,9 @@ public:
     Vec3 position(const LocalPoint& point) const;
     /// Light from the point to any place; black where it does not shine, and at the point itself.
     LightSample illuminate(Vec3 place, const LocalPoint& point) const;
+    /// The same with the mean of the light's texture, which no component is black of where illuminate's is not: enough
+    /// to weigh lights against each other.
+    LightSample estimate(Vec3 place, const LocalPoint& point) const;
 
     /// Pdf with respect to solid angle at which choose_local picks this point of an emissive triangle.
     float pdf_local(const Receiver& receiver, const SurfacePoint& point) const;
@@ -70,13 +73,17 @@ private:
         int instance, triangle;
         Vec3 corner, edge1, edge2;  // in the scene's coordinates
         Vec3 front;                 // twice the area, on the side that emits
+        Rgb mean_emission;
+        bool two_sided;
 
         Vec3 point(float b1, float b2) const { return corner + edge1 * b1 + edge2 * b2; }
     };
     void add_punctual(const PunctualLight& light, std::vector<LightBounds>& all);
     void add_triangles(int instance, std::vector<LightBounds>& all);
     LightSample directional_light(float u_choice, float probability) const;
-    LightSample triangle_light(Vec3 place, const EmissiveTriangle& triangle, float probability, Vec2 u) const;
+    LightSample punctual_light(Vec3 place, const PunctualLight& light, float probability) const;
+    template <class Emission>
+    LightSample triangle_light(Vec3 place, const LocalPoint& point, const Emission& emission) const;
 
     const Scene* scene_;
     const Environment* environment_;

@@ -28,37 +28,40 @@ class Pick {
 public:
     explicit Pick(float u) : u_(u) {}
 
-    /// count: samples drawn of this kind.
-    void add(const Vertex& v, const LightSample& light, int count) {
+    /// count: samples drawn of this kind. Whether it is the one that is kept.
+    bool add(const Vertex& v, const LightSample& light, int count) {
         const bool above = is_above(v.surface, light.wi);
-        if (is_black(light.radiance) || (!above && !is_translucent(v.bsdf))) return;
+        if (is_black(light.radiance) || (!above && !is_translucent(v.bsdf))) return false;
         const Vec3 wi = v.basis.to_local(light.wi);
-        if ((wi.z > 0) != above) return;  // as for the directions that a path samples
+        if ((wi.z > 0) != above) return false;  // as for the directions that a path samples
         const BsdfValue value = evaluate(v.bsdf, wi);
         const float expected = float(count) * light.pdf;
         const float mis = light.delta ? 1.0f : power_heuristic(expected, value.pdf);
-        Rgb contribution = value.f_cos * light.radiance * (mis / expected);
+        Rgb scattered = value.f_cos * (mis / expected);
         if (const int medium = above ? v.surface.before : v.surface.behind; medium >= 0)
-            contribution *= transmittance(v.scene, medium, light.distance) * basic_radiance(v.scene, medium);
-        const float weight = luminance(contribution);
-        if (!(weight > 0)) return;
+            scattered *= transmittance(v.scene, medium, light.distance) * basic_radiance(v.scene, medium);
+        const float weight = luminance(scattered * light.radiance);
+        if (!(weight > 0)) return false;
         total_ += weight;
         const float share = weight / total_;
-        if (u_ < share) {
-            light_ = light;
-            contribution_ = contribution * (1 / weight);
-            u_ = u_ / share;
-        } else {
+        if (u_ >= share) {
             u_ = (u_ - share) / (1 - share);
+            return false;
         }
+        light_ = light;
+        scattered_ = scattered * (1 / weight);
+        u_ = u_ / share;
+        return true;
     }
+    /// The kept sample's light may be known better than when it was weighed.
+    void correct(const LightSample& light) { light_ = light; }
     const std::optional<LightSample>& light() const { return light_; }
     /// Unbiased estimate of the sum of all samples, if the kept one is visible.
-    Rgb estimate() const { return contribution_ * total_; }
+    Rgb estimate() const { return scattered_ * light_->radiance * total_; }
 
 private:
     float u_, total_ = 0;
-    Rgb contribution_;
+    Rgb scattered_;  // share of the light that reaches the eye, over the weight
     std::optional<LightSample> light_;
 };
 
@@ -132,11 +135,13 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
         Pick pick(v.u.get_1d(Draw::light_pick));
         std::array<Lights::LocalPoint, local_light_samples> points;
         lights.choose_local(receiver, choice.x, points);
+        const Lights::LocalPoint* kept = nullptr;
         for (int i = 0; i < local_light_samples; ++i) {
             if (points[i].light < 0) continue;
             points[i].u = shifted(v.u.get_2d(Draw::light_point), i);
-            pick.add(v, lights.illuminate(receiver.position, points[i]), local_light_samples);
+            if (pick.add(v, lights.estimate(receiver.position, points[i]), local_light_samples)) kept = &points[i];
         }
+        if (kept) pick.correct(lights.illuminate(receiver.position, *kept));
         sum += visible_part(ray_scene, pick, v, Draw::light_point, counters);
     }
     if (lights.has_sky() || lights.has_sun()) counters.count(Feature::distant_light);
