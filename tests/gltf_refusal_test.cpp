@@ -185,7 +185,7 @@ TEST_CASE("buffers that are missing or short are refused") {
     const std::string bytes = draft.bytes;
     draft.bytes.clear();
     const auto says = [&](const Json& buffer, const std::string& words) {
-        draft.root["buffers"] = {buffer};
+        draft.root["buffers"] = Json::array({buffer});
         const std::string message = refusal(write(folder, "short.gltf", draft.gltf()));
         CAPTURE(message);
         CHECK(message.find("buffer 0") != std::string::npos);
