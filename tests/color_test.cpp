@@ -58,12 +58,18 @@ TEST_CASE("display values round to the nearest integer and NaN to black") {
 
 TEST_CASE("the views are srgb, filmic, aces and raw, and an unknown one lists them") {
     CHECK(display_view_names() == std::vector<std::string>{"srgb", "filmic", "aces", "raw"});
-    try {
-        const DisplayView view("agx");
-        FAIL("no error");
-    } catch (const Error& e) {
-        CHECK(e.code() == ExitCode::usage);
-        CHECK(std::string(e.what()) == "view: unknown name (got agx, expected one of srgb, filmic, aces, raw)");
+    for (const std::string& name : display_view_names()) CHECK_NOTHROW(check_display_view(name));
+    for (const bool only_its_name : {true, false}) {
+        try {
+            if (only_its_name)
+                check_display_view("agx");
+            else
+                const DisplayView view("agx");
+            FAIL("no error");
+        } catch (const Error& e) {
+            CHECK(e.code() == ExitCode::usage);
+            CHECK(std::string(e.what()) == "view: unknown name (got agx, expected one of srgb, filmic, aces, raw)");
+        }
     }
 }
 

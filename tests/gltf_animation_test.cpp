@@ -148,7 +148,7 @@ TEST_CASE("a camera turns as fast as its node, whatever the node above is turned
     const int eye = draft.add("nodes", {{"camera", 0}, {"rotation", {0, std::sqrt(0.5), 0, std::sqrt(0.5)}}});
     const int car = draft.add_root({{"children", {eye}}, {"scale", {2, 2, 2}}});
     // A twelfth of a turn a second about the vertical.
-    const double s = std::sin(std::numbers::pi / 12), c = std::cos(std::numbers::pi / 12);
+    const float s = std::sin(std::numbers::pi_v<float> / 12), c = std::cos(std::numbers::pi_v<float> / 12);
     animate(draft, car, "rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, s, 0, c});
     check_near(load_at(draft, 0.5).cameras[0].angular_velocity, {0, std::numbers::pi / 6, 0}, 1e-4);
     check_near(load_at(draft, 0.5).cameras[0].velocity, {});

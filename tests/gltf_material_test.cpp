@@ -186,6 +186,15 @@ TEST_CASE("texture slots refer to their textures, and what a slot cannot have is
     CHECK(warns(scene, "material \"wall\": its emissiveTexture uses TEXCOORD_2"));
 }
 
+TEST_CASE("an occlusion map has no effect, since paths find what it stands for, and nothing is said of it") {
+    GltfDraft draft = draft_with({{"occlusionTexture", {{"index", 0}, {"strength", 0.5}}}});
+    draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
+    draft.add("textures", {{"source", 0}});
+    const Scene scene = load(draft);
+    check_is_default(scene.materials[0]);
+    CHECK(scene.warnings.empty());
+}
+
 TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
     const TemporaryFolder folder;
     write(folder, "wet road.png", png());

@@ -57,7 +57,7 @@ FrameSettings::FrameSettings(const RenderOptions& options)
     labels = label_choice(options.layers);
     render.labels.layers = labels.layers;
     if (!options.labels.empty()) label_rules = read_label_rules(options.labels);
-    const DisplayView check(options.view);
+    check_display_view(options.view);
     environment = make_environment(options.light, !options.rain.empty());
     render.streaks.textures = streak_textures(options);
 }

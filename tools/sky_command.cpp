@@ -138,7 +138,7 @@ void write_strip(const SkyOptions& o, const std::string& settings) {
 
 void sky_command(const SkyOptions& o) {
     if (o.output.empty() && o.strip) fail_option("strip", "no --output", "a PNG file");
-    DisplayView check_view(o.view);
+    check_display_view(o.view);
     Json settings;
     add_json(settings, o.light, false);
     settings.erase("lamps");

@@ -66,17 +66,20 @@ const std::vector<std::string>& display_view_names() {
     return names;
 }
 
+void check_display_view(const std::string& name) {
+    const auto& names = display_view_names();
+    if (std::ranges::find(names, name) != names.end()) return;
+    std::string list;
+    for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+    throw usage_error("view", "unknown name (got " + name + ", expected one of " + list + ")");
+}
+
 struct DisplayView::Processor {
     ocio::ConstCPUProcessorRcPtr cpu;
 };
 
 DisplayView::DisplayView(const std::string& name) : processor_(std::make_unique<Processor>()) {
-    const auto& names = display_view_names();
-    if (std::ranges::find(names, name) == names.end()) {
-        std::string list;
-        for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
-        throw usage_error("view", "unknown name (got " + name + ", expected one of " + list + ")");
-    }
+    check_display_view(name);
     processor_->cpu =
         config()
             ->getProcessor(ocio::ROLE_SCENE_LINEAR, display_name, name.c_str(), ocio::TRANSFORM_DIR_FORWARD)

@@ -27,6 +27,8 @@ uint16_t word_from_display(float value);
 
 /// Names that DisplayView takes, in the order shown to users: srgb, filmic, aces, raw.
 const std::vector<std::string>& display_view_names();
+/// Throws Error (usage) with the list of names for any other: before a picture is rendered that could not be shown.
+void check_display_view(const std::string& name);
 
 /// A way to show scene-linear Rec.709 light on an sRGB display. Measured on one core, 2048 x 1024 pixels: srgb 0.05 s,
 /// filmic 0.1 s, aces 0.24 s, raw 0.02 s.
@@ -34,7 +36,7 @@ const std::vector<std::string>& display_view_names();
 /// aces: ACES 1.0 SDR output transform. raw: linear, clipped, for data.
 class DisplayView {
 public:
-    /// Throws Error (usage) with the list of names for any other.
+    /// Throws as check_display_view does.
     explicit DisplayView(const std::string& name);
     ~DisplayView();
     DisplayView(DisplayView&&) noexcept;

@@ -30,21 +30,36 @@ const std::pair<const char*, const char*> set_elsewhere[] = {
     {"json", "--json on the command line"},
     {"depth-encoding", "nothing: the layout has its own"},
 };
+
+std::string replacement(const std::string& key) {
+    for (const auto& [name, instead] : set_elsewhere)
+        if (key == name) return instead;
+    return "";
+}
+
 const std::vector<std::string> own_keys = {"name",  "description",    "license",       "scenes",
                                            "hours", "winds",          "bits",          "jpeg-quality",
                                            "exr",   "rain-over-time", "wind-over-time"};
 const std::vector<std::string> scene_keys = {"scene", "name", "traffic", "frames", "hour", "train", "test"};
 
-class Reader {
-public:
-    explicit Reader(const std::string& path) : path_(path) {
+/// Options of `pluvia render` that are keys, without their dashes.
+const std::vector<std::string>& render_keys() {
+    static const std::vector<std::string> keys = [] {
         CLI::App app;
         RenderOptions options;
         add_render_options(app, options);
+        std::vector<std::string> names;
         for (const CLI::Option* option : app.get_options())
             for (const std::string& name : option->get_lnames())
-                if (name != "help" && replacement(name).empty()) render_keys_.push_back(name);
-    }
+                if (name != "help" && replacement(name).empty()) names.push_back(name);
+        return names;
+    }();
+    return keys;
+}
+
+class Reader {
+public:
+    explicit Reader(const std::string& path) : path_(path) {}
 
     DatasetConfig read() {
         const ConfigNode root = read_config_tree(path_);
@@ -87,17 +102,15 @@ private:
         if (!ok) fail(line, what, expected);
     }
 
-    static std::string replacement(const std::string& key) {
-        for (const auto& [name, instead] : set_elsewhere)
-            if (key == name) return instead;
-        return "";
-    }
-
-    void check_key(const ConfigEntry& entry, std::vector<std::string> known) const {
-        known.insert(known.end(), render_keys_.begin(), render_keys_.end());
-        if (std::find(known.begin(), known.end(), entry.key) != known.end()) return;
+    void check_key(const ConfigEntry& entry, const std::vector<std::string>& others) const {
+        const auto knows = [&](const std::vector<std::string>& keys) {
+            return std::find(keys.begin(), keys.end(), entry.key) != keys.end();
+        };
+        if (knows(others) || knows(render_keys())) return;
         if (const std::string instead = replacement(entry.key); !instead.empty())
             fail(entry.line, fmt::format("\"{}\" is set for each frame or run", entry.key), instead);
+        std::vector<std::string> known = others;
+        known.insert(known.end(), render_keys().begin(), render_keys().end());
         const std::string near = nearest_word(entry.key, known);
         throw usage_error(
             fmt::format("{}:{}", path_, entry.line),
@@ -215,7 +228,7 @@ private:
     }
 
     /// As --KEY=VALUE of `pluvia render` would.
-    void set(RenderOptions& options, const ConfigEntry& entry) const {
+    void set(RenderOptions& options, const ConfigEntry& entry) {
         std::string value;
         if (entry.value.kind == Kind::list) {
             for (const ConfigNode& item : entry.value.items) {
@@ -225,13 +238,16 @@ private:
         } else {
             value = scalar(entry);
         }
-        CLI::App app;
-        add_render_options(app, options);
-        for (CLI::Option* option : app.get_options()) option->required(false);
+        if (app_.get_options().size() <= 1) {
+            add_render_options(app_, parsed_);
+            for (CLI::Option* option : app_.get_options()) option->required(false);
+        }
+        parsed_ = options;
         try {
-            app.parse(std::vector<std::string>{"--" + entry.key + "=" + value});
+            app_.parse(std::vector<std::string>{"--" + entry.key + "=" + value});
+            options = parsed_;
             camera_settings(options), render_settings(options), exposure_ev100(options), label_choice(options.layers);
-            const DisplayView view(options.view);
+            check_display_view(options.view);
             if (options.light.environment.empty()) {
                 sky_settings(options.light, !options.rain.empty());
                 atmosphere_settings(options.light);
@@ -244,7 +260,7 @@ private:
         }
     }
 
-    DatasetScene read_scene(const ConfigNode& node, const RenderOptions& common) const {
+    DatasetScene read_scene(const ConfigNode& node, const RenderOptions& common) {
         require(node.kind == Kind::map, node.line, "a scene has no keys", "scene, frames, train, test");
         DatasetScene scene;
         scene.options = common;
@@ -315,7 +331,8 @@ private:
     }
 
     std::string path_;
-    std::vector<std::string> render_keys_;
+    RenderOptions parsed_;
+    CLI::App app_;  // of `pluvia render`, made when the first of its options comes; parses one after another
 };
 
 }  // namespace

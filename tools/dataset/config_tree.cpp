@@ -8,22 +8,32 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 
 namespace pluvia {
 namespace {
 
 // An alias may repeat a tree that holds aliases itself, or the tree that it stands in.
 constexpr int max_depth = 50;
-constexpr size_t max_size = 4'000'000, node_size = 32;  // of all texts together, a node counted as so many characters
+constexpr size_t node_size = 32;  // a node counts as so many characters beside its text
 
-ConfigNode converted(const YAML::Node& node, const std::string& path, int depth, size_t& size) {
+/// Characters that all texts together may have. A node takes two in the file at least, so that what repeats nothing
+/// stays below, and small files may repeat themselves some thousand times.
+size_t max_size(size_t file_size) {
+    return 100'000 + node_size * file_size;
+}
+
+ConfigNode converted(const YAML::Node& node, const std::string& path, int depth, size_t& left) {
     ConfigNode result;
     result.line = node.Mark().line + 1;
-    size += node_size + (node.IsScalar() ? node.Scalar().size() : 0);
-    if (depth > max_depth || size > max_size)
-        throw usage_error(fmt::format("{}:{}", path, result.line),
-                          fmt::format("is nested too deep or repeats itself (expected at most {} levels and {} MB)",
-                                      max_depth, max_size / 1'000'000));
+    const size_t size = node_size + (node.IsScalar() ? node.Scalar().size() : 0);
+    if (depth > max_depth || size > left)
+        throw usage_error(
+            fmt::format("{}:{}", path, result.line),
+            fmt::format("is nested too deep or repeats itself (expected at most {} levels and some thousand "
+                        "repetitions)",
+                        max_depth));
+    left -= size;
     switch (node.Type()) {
         case YAML::NodeType::Scalar:
             result.kind = ConfigNode::Kind::scalar;
@@ -31,7 +41,8 @@ ConfigNode converted(const YAML::Node& node, const std::string& path, int depth,
             break;
         case YAML::NodeType::Sequence:
             result.kind = ConfigNode::Kind::list;
-            for (const YAML::Node& item : node) result.items.push_back(converted(item, path, depth + 1, size));
+            result.items.reserve(node.size());
+            for (const YAML::Node& item : node) result.items.push_back(converted(item, path, depth + 1, left));
             break;
         case YAML::NodeType::Map:
             result.kind = ConfigNode::Kind::map;
@@ -43,7 +54,7 @@ ConfigNode converted(const YAML::Node& node, const std::string& path, int depth,
                     if (before.key == key)
                         throw usage_error(fmt::format("{}:{}", path, line),
                                           fmt::format("the key \"{}\" is there already, on line {}", key, before.line));
-                result.entries.push_back({key, line, converted(entry.second, path, depth + 1, size)});
+                result.entries.push_back({key, line, converted(entry.second, path, depth + 1, left)});
             }
             break;
         default:
@@ -58,8 +69,9 @@ ConfigNode read_config_tree(const std::string& path) {
     std::ifstream file(path);
     if (!file) throw input_error(path, fmt::format("cannot be opened ({})", std::strerror(errno)));
     try {
-        size_t size = 0;
-        return converted(YAML::Load(file), path, 0, size);
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        size_t left = max_size(text.size());
+        return converted(YAML::Load(text), path, 0, left);
     } catch (const YAML::Exception& e) {
         throw usage_error(fmt::format("{}:{}", path, e.mark.line + 1), fmt::format("is not YAML ({})", e.msg));
     }
