@@ -2,6 +2,7 @@
 #include "tools/learning/crig.h"
 #include "renderer/core/error.h"
 #include "tests/learning/small_models.h"
+#include "tests/learning/stored_tensor.h"
 #include "tests/temporary_folder.h"
 #include "tools/learning/crig_pictures.h"
 #include "tools/learning/synthesis.h"
@@ -16,15 +17,12 @@ namespace {
 constexpr double tolerance = 1e-4;  // of values that reach 2; the demanded limit
 
 SafetensorsFile& fixture() {
-    static SafetensorsFile file(std::string(PLUVIA_SOURCE_DIR) + "/tests/learning/crig.safetensors");
+    static SafetensorsFile file = open_fixture("crig");
     return file;
 }
 
 at::Tensor stored(const std::string& name) {
-    const TensorEntry& entry = fixture().entries().at(name);
-    at::Tensor tensor = at::empty(entry.shape, at::kFloat);
-    fixture().read(name, {tensor.data_ptr<float>(), size_t(tensor.numel())});
-    return tensor;
+    return stored_tensor(fixture(), name);
 }
 
 constexpr CrigConfig small = {.latent = 6, .channels = 8};

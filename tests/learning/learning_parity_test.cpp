@@ -1,5 +1,6 @@
 // Networks against answers of plain PyTorch on the same weights; parity_fixture.py makes them.
 #include "renderer/core/error.h"
+#include "tests/learning/stored_tensor.h"
 #include "tools/learning/first_stage.h"
 #include "tools/learning/schedule.h"
 #include "tools/learning/unet.h"
@@ -15,15 +16,12 @@ namespace {
 constexpr double tolerance = 1e-4;
 
 SafetensorsFile& fixture() {
-    static SafetensorsFile file(std::string(PLUVIA_SOURCE_DIR) + "/tests/learning/parity.safetensors");
+    static SafetensorsFile file = open_fixture("parity");
     return file;
 }
 
 at::Tensor stored(const std::string& name) {
-    const TensorEntry& entry = fixture().entries().at(name);
-    at::Tensor tensor = at::empty(entry.shape, at::kFloat);
-    fixture().read(name, {tensor.data_ptr<float>(), size_t(tensor.numel())});
-    return tensor;
+    return stored_tensor(fixture(), name);
 }
 
 double largest_difference(const at::Tensor& a, const at::Tensor& b) {

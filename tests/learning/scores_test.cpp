@@ -1,6 +1,7 @@
 // LPIPS and FID against values that plain PyTorch computed with the same random weights; scores_fixture.py makes them.
 #include "renderer/core/error.h"
 #include "tests/learning/small_models.h"
+#include "tests/learning/stored_tensor.h"
 #include "tests/temporary_folder.h"
 #include "tools/learning/inception.h"
 #include "tools/learning/lpips.h"
@@ -16,15 +17,12 @@ using namespace pluvia;
 namespace {
 
 SafetensorsFile& fixture() {
-    static SafetensorsFile file(std::string(PLUVIA_SOURCE_DIR) + "/tests/learning/scores.safetensors");
+    static SafetensorsFile file = open_fixture("scores");
     return file;
 }
 
 at::Tensor stored(const std::string& name) {
-    const TensorEntry& entry = fixture().entries().at(name);
-    at::Tensor tensor = at::empty(entry.shape, at::kFloat);
-    fixture().read(name, {tensor.data_ptr<float>(), size_t(tensor.numel())});
-    return tensor;
+    return stored_tensor(fixture(), name);
 }
 
 TensorShapes stored_shapes(const std::string& network) {
