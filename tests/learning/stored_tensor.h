@@ -1,9 +1,8 @@
 // What plain PyTorch answered, as the fixture scripts stored it.
 #pragma once
 
+#include "tools/learning/parameters.h"
 #include "tools/learning/safetensors.h"
-
-#include <ATen/ATen.h>
 
 namespace pluvia {
 
