@@ -45,7 +45,7 @@ std::vector<TradeSetting> trade_settings(bool rains, bool physical) {
     std::vector<TradeSetting> settings;
     for (const int n : {1, 4, 16, 64, 256})
         settings.push_back({"samples", std::to_string(n), false, [n](RenderOptions& o) { o.spp = n; }});
-    for (const double error : {0.4, 0.2, 0.1})
+    for (const double error : {0.8, 0.4, 0.2})
         settings.push_back(
             {"target-error", fmt::format("{}", error), false, [error](RenderOptions& o) { o.target_error = error; }});
     for (const int n : {1, 2, 4, 8})
