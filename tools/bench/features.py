@@ -80,7 +80,7 @@ SHEETS.update({"matt_" + name: dict(SHEETS[name], extensions=dict(SHEETS[name].g
                for name in ("veil", "leaves", "cut_leaves", "second_uv", "painted")})
 # How a sphere is placed: squeezed and turned inside out, as a mirrored copy of an asset is.
 PLACES = {"mirrored": {"translation": [0, 0.75, 0], "rotation": [0, 0.38, 0, 0.92], "scale": [-0.9, 0.6, 0.5]}}
-SPHERES["mirrored"] = SPHERES["plastic"]
+SPHERES["mirrored"] = SPHERES["gloss"]
 MOVING = {"skinned": "skinned_pipe", "morphed": "morphed_pipe"}  # shown at half a second
 
 # What is different in the two programs, where their difference is larger than the noise.
@@ -103,7 +103,8 @@ EXPLAINED = {
     "leaves": DISNEY,
     "second_uv": DISNEY,
     "painted": DISNEY,
-    "bumps": DISNEY,
+    # By itself the first takes 9 % of even light from the diffuse reflection of these bumps.
+    "bumps": "Cycles darkens what a normal map turns away from its surface (Chiang, Li and Burley 2019); " + DISNEY,
     "mirrored": DISNEY,
     "cut_leaves": "the importer leaves alpha as it is: Cycles blends what the mask would cut; " + DISNEY,
     "matt_cut_leaves": "the importer leaves alpha as it is: Cycles blends what the mask would cut",
