@@ -14,15 +14,14 @@ namespace pluvia {
 namespace {
 
 constexpr double pi_d = std::numbers::pi;
-constexpr int picture_width = 512, picture_height = 512;
 
 using Picture = Image<Rgb>;
 
-double row_elevation(int y) {
-    return pi_d * (0.5 - (y + 0.5) / picture_height);
+double row_elevation(const Picture& picture, int y) {
+    return pi_d * (0.5 - (y + 0.5) / picture.height);
 }
-double column_azimuth(int x) {
-    return 2 * pi_d * ((x + 0.5) / picture_width - 0.25);
+double column_azimuth(const Picture& picture, int x) {
+    return 2 * pi_d * ((x + 0.5) / picture.width - 0.25);
 }
 
 /// A body that lights the atmosphere: the sun or the moon.
@@ -93,19 +92,20 @@ Rgb tint_of(const Body& body) {
 void add_view(Picture& picture, const SkyTables& tables, const Body& body) {
     const SkyView view(tables, body.elevation);
     const Rgb tint = tint_of(body) * float(body.scale);
-    parallel_for(picture_height / 2, [&](int y) {
-        for (int x = 0; x < picture_width; ++x)
-            picture.at(x, y) += view.radiance(row_elevation(y), column_azimuth(x) - body.azimuth) * tint;
+    parallel_for(picture.height / 2, [&](int y) {
+        for (int x = 0; x < picture.width; ++x)
+            picture.at(x, y) +=
+                view.radiance(row_elevation(picture, y), column_azimuth(picture, x) - body.azimuth) * tint;
     });
 }
 
 /// Irradiance by the upper half of the picture on a horizontal surface.
 Rgb sky_irradiance(const Picture& picture) {
     double r = 0, g = 0, b = 0;
-    for (int y = 0; y < picture_height / 2; ++y) {
-        const double top = std::cos(pi_d * y / picture_height), bottom = std::cos(pi_d * (y + 1) / picture_height);
-        const double weight = (top * top - bottom * bottom) * (pi_d / picture_width);
-        for (int x = 0; x < picture_width; ++x) {
+    for (int y = 0; y < picture.height / 2; ++y) {
+        const double top = std::cos(pi_d * y / picture.height), bottom = std::cos(pi_d * (y + 1) / picture.height);
+        const double weight = (top * top - bottom * bottom) * (pi_d / picture.width);
+        for (int x = 0; x < picture.width; ++x) {
             const Rgb c = picture.at(x, y);
             r += c.r * weight, g += c.g * weight, b += c.b * weight;
         }
@@ -118,18 +118,18 @@ Rgb horizontal_irradiance(const Disc& disc) {
 }
 
 void add_row(Picture& picture, int y, Rgb radiance) {
-    for (int x = 0; x < picture_width; ++x) picture.at(x, y) += radiance;
+    for (int x = 0; x < picture.width; ++x) picture.at(x, y) += radiance;
 }
 
 /// Replaces a part of the clear sky by overcast of the given irradiance.
 void add_clouds(Picture& picture, double cover, Rgb irradiance) {
-    Picture overcast(picture_width, picture_height);
-    for (int y = 0; y < picture_height / 2; ++y)
-        add_row(overcast, y, Rgb(float(overcast_luminance(std::sin(row_elevation(y))))));
+    Picture overcast(picture.width, picture.height);
+    for (int y = 0; y < picture.height / 2; ++y)
+        add_row(overcast, y, Rgb(float(overcast_luminance(std::sin(row_elevation(picture, y))))));
     // By the picture's own integral, so that the wanted illuminance is met to rounding.
     const Rgb scale = irradiance / luminance(sky_irradiance(overcast));
-    for (int y = 0; y < picture_height / 2; ++y)
-        for (int x = 0; x < picture_width; ++x)
+    for (int y = 0; y < picture.height / 2; ++y)
+        for (int x = 0; x < picture.width; ++x)
             picture.at(x, y) = picture.at(x, y) * float(1 - cover) + overcast.at(x, y) * scale;
 }
 
@@ -148,6 +148,8 @@ void check(const SkySettings& s) {
     require(s.clouds.transmittance > 0 && s.clouds.transmittance <= 1, "transmittance of cloud", s.clouds.transmittance,
             "above 0, up to 1");
     require(s.city_glow >= 0 && s.city_glow <= 100, "city glow", s.city_glow, "0 to 100 cd/m2");
+    require(s.texels >= 2 && s.texels <= 8192 && s.texels % 2 == 0, "number of texels", s.texels,
+            "an even number, 2 to 8192");
     if (!s.moon) return;
     require(is_elevation(s.moon->elevation), "moon elevation", s.moon->elevation, "-pi/2 to pi/2 radians");
     require(std::isfinite(s.moon->azimuth), "moon azimuth", s.moon->azimuth, "a finite angle");
@@ -157,8 +159,9 @@ void check(const SkySettings& s) {
 
 Environment make_sky(const SkyTables& tables, const SkySettings& settings) {
     check(settings);
-    Picture picture(picture_width, picture_height);
-    for (int y = 0; y < picture_height / 2; ++y) add_row(picture, y, night_sky_radiance(tables, row_elevation(y)));
+    Picture picture(settings.texels, settings.texels);
+    for (int y = 0; y < picture.height / 2; ++y)
+        add_row(picture, y, night_sky_radiance(tables, row_elevation(picture, y)));
 
     std::vector<Body> bodies;
     // Below these heights the body's light is less than a thousandth of the night sky's.
@@ -181,11 +184,11 @@ Environment make_sky(const SkyTables& tables, const SkySettings& settings) {
         const double missing = wanted - luminance(direct) - (1 - clouds.cover) * luminance(clear_sky);
         add_clouds(picture, clouds.cover, cloud_color(clear, settings.sun_elevation) * float(std::max(0.0, missing)));
     }
-    for (int y = 0; settings.city_glow > 0 && y < picture_height / 2; ++y)
-        add_row(picture, y, city_glow_radiance(settings.city_glow, clouds.cover, row_elevation(y)));
+    for (int y = 0; settings.city_glow > 0 && y < picture.height / 2; ++y)
+        add_row(picture, y, city_glow_radiance(settings.city_glow, clouds.cover, row_elevation(picture, y)));
 
     const Rgb ground = (sky_irradiance(picture) + direct) * float(tables.atmosphere.settings.ground_albedo / pi_d);
-    for (int y = picture_height / 2; y < picture_height; ++y) add_row(picture, y, ground);
+    for (int y = picture.height / 2; y < picture.height; ++y) add_row(picture, y, ground);
     return Environment(std::move(picture), discs);
 }
 

@@ -24,12 +24,13 @@ struct SkySettings {
     std::optional<Moon> moon;
     Clouds clouds;
     double city_glow = 0;  // cd/m2 in the zenith of closed cloud
+    int texels = 512;      // of the picture, in each direction: even, 2 to 8192
 };
 
-/// Sky, discs and ground. The picture has 512 x 512 texels: towards the horizon the sky changes within a third of a
-/// degree of height, but nowhere that fast along it, and what shines on a street, its upper half, stays in the fast
-/// caches. Its lower half is ground of the tables' albedo in the light of the upper half and the discs, so that what
-/// mirrors it is never black.
+/// Sky, discs and ground. The picture has 512 x 512 texels unless told otherwise: towards the horizon the sky changes
+/// within a third of a degree of height, but nowhere that fast along it, and what shines on a street, its upper half,
+/// stays in the fast caches. Its lower half is ground of the tables' albedo in the light of the upper half and the
+/// discs, so that what mirrors it is never black.
 ///
 /// Clouds leave exactly illuminance_ratio() of what sun, moon and stars give on the horizontal. A part 1 - cover of the
 /// clear sky is seen as it is; the rest of the light comes from the CIE overcast sky, whose colour is cloud_color().

@@ -2,6 +2,7 @@
 
 #include "renderer/core/error.h"
 #include "renderer/scene/gltf.h"
+#include "renderer/scene/texture_size.h"
 #include "renderer/transport/passes.h"
 #include "shaders/streak_files.h"
 #include "tools/frame_in_time.h"
@@ -30,6 +31,7 @@ FrameScene load_frame_scene(const RenderOptions& options) {
     for (const std::string& warning : result.scene.warnings)
         std::cerr << "pluvia: warning: " << options.scene << ": " << warning << "\n";
     result.hash = content_hash(result.scene);
+    if (options.texture_size) shrink_textures(result.scene, *options.texture_size);
     result.is_animated = !contents.animations.empty();
     result.labelled_paths = std::move(contents.labelled_paths);
     if (!result.is_animated || !label_choice(options.layers).layers.flow) return result;

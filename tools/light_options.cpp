@@ -135,6 +135,7 @@ SkySettings sky_settings(const LightOptions& o, bool rains) {
     require_option(sky.clouds.cover >= 0 && sky.clouds.cover <= 1, "cloud-cover", sky.clouds.cover, "0 to 1");
     sky.clouds.transmittance = entry(cloud_types, cloud_type(o, rains), "cloud-type").transmittance;
     sky.city_glow = city_glow(o.city_glow);
+    sky.texels = o.sky_texels;
     if (o.sun_azimuth) require_option(std::abs(*o.sun_azimuth) <= 360, "sun-azimuth", *o.sun_azimuth, "-360 to 360");
     if (o.sun_elevation) {
         require_option(std::abs(*o.sun_elevation) <= 90, "sun-elevation", *o.sun_elevation, "-90 to 90");

@@ -28,6 +28,7 @@ struct LightOptions {
     double environment_scale = 1;
     std::optional<double> environment_illuminance;
     std::string lamps = "auto";
+    int sky_texels = SkySettings().texels;  // no option: `validate trade` shows that nobody needs one
 };
 
 /// Those of the sky alone, and those of any environment and the lamps of a scene.

@@ -101,9 +101,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
     command
         .add_option_function<std::string>(
             "--quality", [&o](const std::string& name) { set_quality(o, name); },
-            "draft, standard, high or reference: --spp 16, 64, 256 or 1024 where that is not given; errors and costs "
-            "are "
-            "in the README")
+            "draft, standard, high or reference: --spp 16, 64, 256 or 1024 where that is not given; the README has "
+            "errors and costs")
         ->group(quality);
     command.add_option("--spp", o.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
@@ -111,6 +110,10 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
             "--bounces", o.bounces,
             "cut paths after this many, a raindrop being one of them; BIASED: loses light. -1 = unlimited, unbiased")
         ->capture_default_str()
+        ->group(quality);
+    command
+        .add_option("--texture-size", o.texture_size,
+                    "halve pictures of textures until none has a side of more texels: less memory; BIASED: blurs")
         ->group(quality);
     command.add_option("--seed", o.seed, "of all random numbers")
         ->check(seed_range())
@@ -183,6 +186,7 @@ nlohmann::ordered_json to_json(const RenderOptions& o) {
     j["shutter"] = o.shutter;
     if (!o.camera_velocity.empty()) j["camera-velocity"] = o.camera_velocity;
     j["spp"] = o.spp, j["bounces"] = o.bounces, j["seed"] = o.seed;
+    if (o.texture_size) j["texture-size"] = *o.texture_size;
     if (!o.wet_wind.empty()) j["wet-wind"] = o.wet_wind;
     if (o.rain_seed) j["rain-seed"] = *o.rain_seed;
     if (!o.wind_travel.empty()) j["wind-travel"] = o.wind_travel;

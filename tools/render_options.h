@@ -25,6 +25,7 @@ struct RenderOptions {
     int spp = 64;
     std::optional<double> target_error;  // chooses spp, which the frame records in its stead
     int bounces = -1;                    // -1 = unlimited
+    std::optional<int> texture_size;     // texels; empty: as the file has them
     std::vector<double> rain;
     std::vector<double> wind = {0, 0, 0};
     std::vector<double> wind_travel;  // empty: wind times the time

@@ -47,6 +47,7 @@ RenderSettings render_settings(const RenderOptions& o) {
     RenderSettings s;
     require_option(o.spp >= 1 && o.spp <= (1 << 24), "spp", o.spp, "1 to 16777216");
     require_option(o.bounces >= -1, "bounces", o.bounces, "-1 or more");
+    if (o.texture_size) require_option(*o.texture_size >= 1, "texture-size", *o.texture_size, "1 or more");
     require_option(o.threads >= 0, "threads", o.threads, "0 or more");
     require_option(o.depth_max > 0 && o.depth_max <= 1e6, "depth-max", o.depth_max, "above 0 m, up to 1000000");
     if (o.target_error)

@@ -135,8 +135,8 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
         counters.count(Feature::local_light);
         const Receiver receiver = receiver_at(v.surface, v.bsdf);
         Pick pick(v.u.get_1d(Draw::light_pick));
-        const int count = local_light_samples(v.bounce);
-        std::array<Lights::LocalPoint, most_local_light_samples> points;
+        const int count = v.light_samples;
+        std::array<Lights::LocalPoint, most_light_samples> points;
         lights.choose_local(receiver, choice.x, {points.data(), size_t(count)});
         const Lights::LocalPoint* kept = nullptr;
         for (int i = 0; i < count; ++i) {

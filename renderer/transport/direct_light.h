@@ -13,11 +13,12 @@
 
 namespace pluvia {
 
-/// Samples of lamps that compete at a vertex for one shadow ray. Fewer after scattering, where their noise is less of
-/// the picture's: measured on lit streets, time and error weighed.
-constexpr int most_local_light_samples = 8;
-constexpr int local_light_samples(int bounce) {
-    return std::max(2, most_local_light_samples >> std::min(bounce, 2));
+constexpr int most_light_samples = 16;
+
+/// Samples of lamps that compete at a vertex for one shadow ray, where `at_first` do at the first. Fewer after
+/// scattering, where their noise is less of the picture's: measured on lit streets, time and error weighed.
+constexpr int light_samples_at(int at_first, int bounce) {
+    return std::max(std::min(at_first, 2), at_first >> std::min(bounce, 2));
 }
 
 /// Where light samples were drawn, as far as the weight of a ray that left there needs it.
@@ -48,7 +49,8 @@ struct Vertex {
     const Sampler& sampler;
     const VertexNumbers& u;
     int bounce;
-    float relevance;  // 1 / (light at the vertex, in cd/m2, below which a shadow ray is worth tracing only at times)
+    int light_samples;  // of lamps, up to most_light_samples
+    float relevance;    // 1 / (light at the vertex, in cd/m2, below which a shadow ray is worth tracing only at times)
 };
 
 /// Share of a light sample that arrives at a point: 1, 0, or what smooth panes on the way let straight through.

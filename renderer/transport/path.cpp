@@ -6,20 +6,14 @@
 namespace pluvia {
 namespace {
 
-// Paths live at least this long, then survive with the probability of their throughput.
-constexpr int first_roulette_bounce = 2;
 // Below 1, so that a closed white room cannot hold a path for ever. Where albedos are a, the square of what a path
 // gathers has a finite mean only while a^2 < max_survival: 0.95 would lose rooms whiter than 0.975 in noise.
 constexpr float max_survival = 0.999f;
 
-// Shadow rays that bring less than this share of a pixel's light are traced for some samples only. What they add to a
-// sample's relative variance is at most this times the share of that light.
-constexpr float least_share = 0.25f;
-
-/// See Vertex::relevance.
-float relevance(Rgb throughput, const PathWorth& worth) {
-    return worth.pixel_luminance > 0 ? max_component(throughput) / (least_share * worth.pixel_luminance)
-                                     : std::numeric_limits<float>::infinity();
+/// See Vertex::relevance. Infinite where all shadow rays are traced.
+float relevance(Rgb throughput, float shadow_roulette, const PathWorth& worth) {
+    const float least = shadow_roulette * worth.pixel_luminance;
+    return least > 0 ? max_component(throughput) / least : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace
@@ -59,12 +53,14 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (last && !lets_straight_through(surface.bsdf)) return result;
 
         const ShadingBasis basis(surface.shading_normal);
+        const int light_samples = light_samples_at(settings_.light_samples, bounce);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
-            result.radiance += throughput * direct_light(*ray_scene_, *lights_,
-                                                         {*scene_, surface, bsdf, basis, sampler, u, bounce,
-                                                          relevance(throughput, worth)},
-                                                         counters);
+            result.radiance +=
+                throughput * direct_light(*ray_scene_, *lights_,
+                                          {*scene_, surface, bsdf, basis, sampler, u, bounce, light_samples,
+                                           relevance(throughput, settings_.shadow_roulette, worth)},
+                                          counters);
 
         const auto next = sample(bsdf, lobe.x, u.get_2d(Draw::bsdf));
         if (!next) return result;
@@ -73,7 +69,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if ((dot(wi, surface.geometric_normal) > 0) == next->transmitted) return result;
         throughput *= next->weight;
         if (is_black(throughput)) return result;
-        if (bounce >= first_roulette_bounce || worth.importance < 1) {
+        if (bounce >= settings_.first_roulette_bounce || worth.importance < 1) {
             const float survival = std::min(max_survival, worth.importance * max_component(throughput));
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
@@ -84,7 +80,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         else if (last)
             return result;
         else
-            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), local_light_samples(bounce), true};
+            origin = {next->delta ? 0.0f : next->pdf, receiver_at(surface, bsdf), light_samples, true};
         if (next->transmitted && surface.volume >= 0) {
             if (surface.from_front)
                 media.enter(surface.volume);

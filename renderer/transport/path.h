@@ -11,6 +11,14 @@ namespace pluvia {
 struct PathSettings {
     /// Scattering events after which a path is cut. Unlimited by default; any limit loses light and so biases.
     int max_bounces = std::numeric_limits<int>::max();
+    /// Samples of lamps that compete for a shadow ray at a path's first vertex, 1 to most_light_samples: half as many
+    /// at the second, a quarter from there on.
+    int light_samples = 8;
+    /// Paths live for this many scattering events, then survive with the probability of their throughput.
+    int first_roulette_bounce = 2;
+    /// Shadow rays that bring less than this share of a pixel's light are traced for some samples only. What they add
+    /// to a sample's relative variance is at most this times the share of that light. 0: all are traced.
+    float shadow_roulette = 0.25f;
 };
 
 /// What the light of a path is worth, which decides how often roulette ends it or leaves out a shadow ray.

@@ -44,7 +44,7 @@ std::map<std::string, std::string> pictures_in(const std::string& path) {
 std::vector<PicturePair> pair_pictures(const std::string& backgrounds, const std::string& masks) {
     const auto clean = pictures_in(backgrounds), rain = pictures_in(masks);
     std::vector<PicturePair> pairs;
-    if (clean.size() == 1)
+    if (clean.size() == 1 && rain.size() > 1)
         for (const auto& [name, path] : rain) pairs.push_back({name, clean.begin()->second, path});
     else if (rain.size() == 1)
         for (const auto& [name, path] : clean) pairs.push_back({name, path, rain.begin()->second});

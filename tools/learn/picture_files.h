@@ -11,7 +11,8 @@ namespace pluvia {
 /// Throws Error (input) when there is none, or two have the same name.
 std::map<std::string, std::string> pictures_in(const std::string& path);
 
-/// A clean picture and a mask, and the name that their result has.
+/// A clean picture and a mask, and the name that their result has: the clean picture's, or the mask's where one clean
+/// picture goes with several.
 struct PicturePair {
     std::string name, background, mask;
 };

@@ -49,7 +49,8 @@ TradeResult measure(const TradeScene& scene, const TradeSetting& setting, const 
     settings.streaks.textures = streak_textures(options);
     if (setting.code) setting.code(settings);
     TradeResult result{setting.dial, setting.value, setting.biased, key};
-    const JudgedLayers got = scene.render(settings, options.target_error, result, progress);
+    const std::optional<TradeScene> other = setting.reloads ? std::optional<TradeScene>(options) : std::nullopt;
+    const JudgedLayers got = (other ? *other : scene).render(settings, options.target_error, result, progress);
     result.background = error_of_layer(got.background, reference.layers.background);
     if (got.rainy) result.rainy = error_of_layer(*got.rainy, *reference.layers.rainy);
     return result;
@@ -121,7 +122,7 @@ void add_trade_command(CLI::App& validate) {
     command->add_option("--only", o->only, "dials, e.g. samples,bounces; default: all")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->footer(dial_list() + "\n" + fixed_dials() +
+    command->footer(dial_list() +
                     "\nWhat is done is not done again: the command goes on where it was stopped.\n\n"
                     "Example:\n  pluvia validate trade lane.glb --camera mid --rain 50 --hour 20 -o out/trade");
     command->callback([o] { trade_command(*o); });

@@ -14,22 +14,22 @@ const std::vector<TradeDial>& trade_dials() {
         {"samples", "--spp; 16, 64, 256 and 1024 are --quality draft, standard, high and reference"},
         {"target-error", "--target-error, its pilot included"},
         {"bounces", "--bounces; biased: loses light"},
+        {"path-roulette", "scattering events after which roulette may end a path (2; no option)"},
+        {"shadow-roulette",
+         "share of the picture's light below which a shadow ray is traced at random (0.25; no option)"},
+        {"light-samples", "samples of lamps that compete for a path's first shadow ray (8; no option)"},
+        {"sky-texels", "of the sky's picture, in each direction (512; no option)"},
+        {"texture-size", "--texture-size; biased: blurs"},
         {"streak-width",
          "--streak-width; biased: narrower drops are light spread over the picture, which is right in the mean, and no "
          "streaks"},
         {"streak-roulette",
-         "share of the picture's light below which the light of a streak is computed at random (0.1; no option)"},
-        {"medium-roulette", "the same for the light of fine rain (0.2; no option)"},
+         "share of the picture's light below which the light of a streak is computed at random (0.25; no option)"},
+        {"medium-roulette",
+         "the same for the light of fine rain, which is how many of its points are lit (0.25; no option)"},
         {"composition", "--composition; not an error: the paper's rain is another picture"},
     };
     return dials;
-}
-
-const char* fixed_dials() {
-    return "Without a dial, since nobody has needed another place: light samples of a path's vertex (8 chosen by the\n"
-           "light tree, of which one is tested for visibility), where roulette sets in (the third vertex, by what the\n"
-           "path still carries), points of the medium on a camera ray (up to 4), the sky (512 x 512 texels, tables of\n"
-           "the atmosphere as published), textures (as the file has them).\n";
 }
 
 void check_dials(const std::vector<std::string>& names) {
@@ -50,19 +50,29 @@ std::vector<TradeSetting> trade_settings(bool rains, bool physical) {
             {"target-error", fmt::format("{}", error), false, [error](RenderOptions& o) { o.target_error = error; }});
     for (const int n : {1, 2, 4, 8})
         settings.push_back({"bounces", std::to_string(n), true, [n](RenderOptions& o) { o.bounces = n; }});
+    const auto add_code = [&](const char* dial, auto value, auto set) {
+        settings.push_back({dial, fmt::format("{}", value), false, {}, [=](RenderSettings& s) { set(s, value); }});
+    };
+    for (const int n : {1, 4, 8})
+        add_code("path-roulette", n, [](auto& s, int v) { s.path.first_roulette_bounce = v; });
+    for (const double c : {0.0, 1.0})
+        add_code("shadow-roulette", c, [](auto& s, double v) { s.path.shadow_roulette = float(v); });
+    for (const int n : {1, 2, 4, 16}) add_code("light-samples", n, [](auto& s, int v) { s.path.light_samples = v; });
+    for (const int n : {128, 256, 1024})
+        settings.push_back(
+            {"sky-texels", std::to_string(n), true, [n](RenderOptions& o) { o.light.sky_texels = n; }, {}, true});
+    for (const int n : {64, 256})
+        settings.push_back(
+            {"texture-size", std::to_string(n), true, [n](RenderOptions& o) { o.texture_size = n; }, {}, true});
     if (!rains) return settings;
     for (const double width : {0.5, 1.0, 2.0})
         settings.push_back(
             {"streak-width", fmt::format("{}", width), true, [width](RenderOptions& o) { o.streak_width = width; }});
     if (!physical) return settings;
     for (const double c : {0.02, 1.0})
-        settings.push_back({"streak-roulette", fmt::format("{}", c), false, {}, [c](RenderSettings& s) {
-                                s.streaks.streak_roulette = c;
-                            }});
+        add_code("streak-roulette", c, [](auto& s, double v) { s.streaks.streak_roulette = v; });
     for (const double c : {0.05, 1.0})
-        settings.push_back({"medium-roulette", fmt::format("{}", c), false, {}, [c](RenderSettings& s) {
-                                s.streaks.medium_roulette = c;
-                            }});
+        add_code("medium-roulette", c, [](auto& s, double v) { s.streaks.medium_roulette = v; });
     settings.push_back({"composition", "paper", true, [](RenderOptions& o) { o.composition = "paper"; }});
     return settings;
 }

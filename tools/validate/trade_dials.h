@@ -15,6 +15,7 @@ struct TradeSetting {
     bool biased = false;                               // more samples do not lead to the reference
     std::function<void(RenderOptions&)> options = {};  // what it changes of them
     std::function<void(RenderSettings&)> code = {};    // of what has no option
+    bool reloads = false;                              // the scene or its light is another, not just its samples
 };
 
 /// What a dial is, for help and reports.
@@ -25,9 +26,6 @@ struct TradeDial {
 
 /// All of them, in the order in which they are measured.
 const std::vector<TradeDial>& trade_dials();
-/// What has no dial, and why.
-const char* fixed_dials();
-
 /// Throws Error (usage) for a name that is none of a dial.
 void check_dials(const std::vector<std::string>& names);
 /// rains: whether there is rain, without which some dials say nothing. physical: its composition.

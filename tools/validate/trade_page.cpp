@@ -118,8 +118,7 @@ std::string trade_page(const TradeReport& report) {
     html += "<h2>Dials</h2><ul>";
     for (const TradeDial& dial : trade_dials())
         html += "<li><b>" + std::string(dial.name) + "</b>: " + html_escaped(dial.meaning) + "</li>";
-    html += "</ul><p class=\"note\">" + html_escaped(fixed_dials()) + "</p>";
-    html += "<h2>Numbers</h2><pre>" + html_escaped(trade_table(report)) + "</pre><h2>Settings</h2><pre>" +
+    html += "</ul><h2>Numbers</h2><pre>" + html_escaped(trade_table(report)) + "</pre><h2>Settings</h2><pre>" +
             html_escaped(json_text(report.options, 2)) + "</pre></html>\n";
     return html;
 }
