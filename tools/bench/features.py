@@ -286,7 +286,9 @@ def make_files(folder):
         if name in SHEETS:
             uv = [[0, 1], [1, 1], [1, 0], [0, 0]]
             more = {"COLOR_0": [[0.9, 0.1, 0.1], [0.1, 0.8, 0.1], [0.1, 0.1, 0.9], [1, 1, 1]]} if name == "painted" else {}
-            draft.quad([-0.2, 0.1, 1.2], [1.4, 0, 0.4], [0, 1.5, 0], [-0.275, 0, 0.961], made, TEXCOORD_0=uv,
+            # To the last digit at right angles: Blender keeps normals as angles to its own, and loses a degree otherwise.
+            width = math.hypot(1.4, 0.4)
+            draft.quad([-0.2, 0.1, 1.2], [1.4, 0, 0.4], [0, 1.5, 0], [-0.4 / width, 0, 1.4 / width], made, TEXCOORD_0=uv,
                        TEXCOORD_1=[[v, u] for u, v in uv], **more)
         files.append(f"{folder}/{name}.gltf")
         draft.save(files[-1])
