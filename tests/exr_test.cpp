@@ -136,10 +136,10 @@ TEST_CASE("attributes come back as they were given") {
                                  {"worldToCamera", std::array<float, 16>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13}}};
     write(folder / "frame.exr", Picture(32, 32), 32, given);
     const ExrAttributes back = ExrReader(folder / "frame.exr").attributes();
-    for (const auto& [name, value] : given) {
-        CAPTURE(name);
-        REQUIRE(back.contains(name));
-        CHECK(bool(back.at(name) == value));
+    for (const auto& attribute : given) {
+        CAPTURE(attribute.first);
+        REQUIRE(back.contains(attribute.first));
+        CHECK(bool(back.at(attribute.first) == attribute.second));
     }
 }
 
@@ -284,18 +284,21 @@ TEST_CASE("what an EXR does not hold is refused") {
 
 TEST_CASE("an EXR may be 32768 pixels wide or high, and no more") {
     const Folder folder;
-    for (const auto& [width, height] : {std::pair(32768, 2), std::pair(2, 32768), std::pair(32, 32)}) {
-        CAPTURE(width);
-        const Picture picture(width, height);
+    struct Size {
+        int width, height;
+    };
+    for (const Size size : {Size{32768, 2}, Size{2, 32768}, Size{32, 32}}) {
+        CAPTURE(size.width);
+        const Picture picture(size.width, size.height);
         write(folder / "frame.exr", picture, 1000);
         ExrReader reader(folder / "frame.exr");
-        std::vector<float> last(static_cast<std::size_t>(width));
+        std::vector<float> last(static_cast<std::size_t>(size.width));
         const ExrRequest request[] = {{"rain_050.R", last.data()}};
-        reader.read_rows(height - 1, 1, request);
-        CHECK(std::ranges::equal(last, std::span(picture.light).last(std::size_t(width))));
+        reader.read_rows(size.height - 1, 1, request);
+        CHECK(std::ranges::equal(last, std::span(picture.light).last(std::size_t(size.width))));
     }
-    for (const auto& [width, height] : {std::pair(32769, 1), std::pair(1, 32769), std::pair(0, 1), std::pair(1, -1)})
-        CHECK(error_of([&] { ExrWriter(folder / "x.exr", width, height, channels); }).code() ==
+    for (const Size size : {Size{32769, 1}, Size{1, 32769}, Size{0, 1}, Size{1, -1}})
+        CHECK(error_of([&] { ExrWriter(folder / "x.exr", size.width, size.height, channels); }).code() ==
               ExitCode::render_failed);
     CHECK_FALSE(std::filesystem::exists(folder / "x.exr"));
     const Error error = error_of([&] { ExrWriter("/proc/no/such/x.exr", 32, 32, channels); });

@@ -45,6 +45,7 @@ const std::map<std::string, std::string> doors = {
     {"Imath", "renderer/image/exr"},
     {"OpenColorIO", "renderer/image/color"},
     {"webp/", "renderer/image/webp"},
+    {"png.h", "renderer/image/png"},
     {"CLI/", "tools/"},
     {"yaml-cpp", "tools/dataset/config_tree"},
     {"archive", "tools/dataset/tar_file"},

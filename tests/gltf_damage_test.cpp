@@ -71,7 +71,9 @@ TEST_CASE("files that are no glTF are refused") {
     says(folder.path(), "expected .glb or .gltf");
     says(write(folder, "scene.obj", good), "got \".obj\"");
     says(write(folder, "text.glb", good), "not a binary glTF file");
-    says(write(folder, "binary.gltf", glb), "not readable as glTF");
+    says(write(folder, "binary.gltf", glb), "not readable as glTF (parse error at line 1, column 1");
+    says(write(folder, "empty.gltf", ""), "not readable as glTF (parse error at line 1, column 1");
+    says(write(folder, "number.gltf", R"({"asset": {"version": "2.0"}, "nodes": 3})"), "nodes are no list (got number");
     for (const char* text :
          {"", "{", "null", "[]", "{}", "{\"asset\": {}}", "{\"asset\": 2, \"nodes\": 3}", "hello", "\xff\xfe", "\"\\"})
         CHECK(refusal(write(folder, "garbage.gltf", text)) != "");

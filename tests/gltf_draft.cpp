@@ -76,6 +76,14 @@ std::string GltfDraft::gltf() const {
     return whole.dump();
 }
 
+void GltfDraft::add_pictures(const Json& images) {
+    root["images"] = images;
+    for (int i = 0; i < int(images.size()); ++i) {
+        const int texture = add("textures", {{"source", i}});
+        add("materials", {{"emissiveTexture", {{"index", texture}}}});
+    }
+}
+
 std::string GltfDraft::glb() const {
     Json whole = root;
     if (!bytes.empty()) whole["buffers"] = {{{"byteLength", bytes.size()}}};

@@ -50,6 +50,8 @@ struct GltfDraft {
     int add_triangle_mesh(Json more = Json::object());
     /// A node of the default scene.
     int add_root(Json node);
+    /// The file's images, each with a texture and a material that shows it.
+    void add_pictures(const Json& images);
 
     /// With the buffer as a data URI.
     std::string gltf() const;

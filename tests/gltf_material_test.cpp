@@ -186,13 +186,23 @@ TEST_CASE("texture slots refer to their textures, and what a slot cannot have is
     CHECK(warns(scene, "material \"wall\": its emissiveTexture uses TEXCOORD_2"));
 }
 
-TEST_CASE("an occlusion map has no effect, since paths find what it stands for, and nothing is said of it") {
-    GltfDraft draft = draft_with({{"occlusionTexture", {{"index", 0}, {"strength", 0.5}}}});
+TEST_CASE("an occlusion map has no effect, since paths find what it stands for, costs nothing, and nothing is said") {
+    Json material = {{"occlusionTexture", {{"index", 0}, {"strength", 0.5}}}};
+    for (const std::string& picture : {png(), std::string("no picture at all")}) {
+        GltfDraft draft = draft_with(material);
+        draft.root["images"] = {{{"uri", data_uri(picture, "image/png")}}};
+        draft.add("textures", {{"source", 0}});
+        const Scene scene = load(draft);
+        check_is_default(scene.materials[0]);
+        CHECK(scene.warnings.empty());
+        CHECK(scene.images[0].pixels.size() == 1);
+    }
+    // Many exporters keep occlusion and roughness in one picture.
+    material["pbrMetallicRoughness"] = {{"metallicRoughnessTexture", {{"index", 0}}}};
+    GltfDraft draft = draft_with(material);
     draft.root["images"] = {{{"uri", data_uri(png(), "image/png")}}};
     draft.add("textures", {{"source", 0}});
-    const Scene scene = load(draft);
-    check_is_default(scene.materials[0]);
-    CHECK(scene.warnings.empty());
+    CHECK(load(draft).images[0].pixels == std::vector<Rgba8>(2, brick));
 }
 
 TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
@@ -200,9 +210,9 @@ TEST_CASE("a picture is the same embedded, as a data URI and beside the file") {
     write(folder, "wet road.png", png());
     GltfDraft draft = triangle_draft();
     const int view = draft.add_view(png());
-    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}},
-                            {{"uri", data_uri(png(), "image/png")}},
-                            {{"uri", "wet%20road.png"}}};
+    draft.add_pictures({{{"bufferView", view}, {"mimeType", "image/png"}},
+                        {{"uri", data_uri(png(), "image/png")}},
+                        {{"uri", "wet%20road.png"}}});
     for (const bool binary : {false, true}) {
         const std::string path = binary ? write(folder, "s.glb", draft.glb()) : write(folder, "s.gltf", draft.gltf());
         const Scene scene = load_gltf(path);
@@ -221,7 +231,7 @@ TEST_CASE("a picture in the current folder is not taken for one beside the scene
     std::filesystem::create_directory(folder / "elsewhere");
     write(folder, "elsewhere/bricks.png", png());
     GltfDraft draft = triangle_draft();
-    draft.root["images"] = {{{"uri", "bricks.png"}}};
+    draft.add_pictures(Json::array({{{"uri", "bricks.png"}}}));
     write(folder, "scene.gltf", draft.gltf());
     std::filesystem::current_path(folder / "elsewhere");
     CHECK_THROWS_AS(load_gltf("../scene.gltf"), Error);
@@ -235,9 +245,9 @@ TEST_CASE("a picture in the current folder is not taken for one beside the scene
 TEST_CASE("pictures are recognised by their content, whatever the file calls them") {
     GltfDraft draft = triangle_draft();
     const int view = draft.add_view(jpeg());
-    draft.root["images"] = {{{"bufferView", view}, {"mimeType", "image/jpeg"}},
-                            {{"bufferView", view}, {"mimeType", "image/png"}},
-                            {{"uri", data_uri(jpeg(), "image/jpeg")}}};
+    draft.add_pictures({{{"bufferView", view}, {"mimeType", "image/jpeg"}},
+                        {{"bufferView", view}, {"mimeType", "image/png"}},
+                        {{"uri", data_uri(jpeg(), "image/jpeg")}}});
     for (const Image<Rgba8>& image : load(draft).images) {
         CHECK(image.width == 8);
         CHECK(image.height == 8);

@@ -120,8 +120,7 @@ TEST_CASE("coordinates that are no numbers read some texel") {
 TEST_CASE("WebP pictures keep their colour beside alpha, with their extension and without") {
     const std::vector<Rgba8> expected = {{200, 100, 50, 128}, {10, 20, 30, 255}};
     GltfDraft draft = triangle_draft();
-    draft.root["images"] = {{{"uri", data_uri(webp, "image/webp")}}};
-    draft.add("textures", {{"source", 0}});
+    draft.add_pictures(Json::array({{{"uri", data_uri(webp, "image/webp")}}}));
     CHECK(load(draft).images[0].pixels == expected);
     draft.root["textures"] = {{{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
     draft.root["extensionsUsed"] = draft.root["extensionsRequired"] = {"EXT_texture_webp"};
@@ -137,6 +136,7 @@ TEST_CASE("a DDS picture is taken where MSFT_texture_dds offers one, and its fal
     draft.root["images"] = {{{"uri", data_uri("no picture", "image/png")}},
                             {{"uri", data_uri(red_dds(), "image/vnd-ms.dds")}}};
     draft.add("textures", {{"source", 0}, {"extensions", {{"MSFT_texture_dds", {{"source", 1}}}}}});
+    draft.add("materials", {{"emissiveTexture", {{"index", 0}}}});
     draft.root["extensionsUsed"] = {"MSFT_texture_dds"};
     const Scene scene = load(draft);
     CHECK(scene.textures[0].image == 1);

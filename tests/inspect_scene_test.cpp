@@ -1,6 +1,7 @@
 // What `pluvia inspect` says about a scene, against a file whose contents are known.
 #include "tools/inspect_scene.h"
 
+#include "renderer/image/image_io.h"
 #include "tests/gltf_draft.h"
 #include "tools/scene_memory.h"
 
@@ -80,6 +81,20 @@ TEST_CASE("inspect counts the materials of each kind that a render would activat
     CHECK(j["transmitting_materials"] == 2);
     CHECK(j["volume_materials"] == 1);
     CHECK(j["emissive_materials"] == 0);
+}
+
+TEST_CASE("inspect tells sizes of the pictures that a render looks at, and which ones it does not") {
+    GltfDraft draft = triangle_draft();
+    const auto png = encode_png(Image<Rgba8>(4, 2));
+    const std::string uri = data_uri({reinterpret_cast<const char*>(png.data()), png.size()}, "image/png");
+    draft.add_pictures({{{"uri", uri}}, {{"uri", uri}}});
+    draft.root["materials"][1] = {{"occlusionTexture", {{"index", 1}}}};
+    const auto j = inspect(draft)["images"];
+    CHECK(j[0]["used"] == true);
+    CHECK(j[0]["width"] == 4);
+    CHECK(j[0]["height"] == 2);
+    CHECK(j[1]["used"] == false);
+    CHECK_FALSE(j[1].contains("width"));
 }
 
 TEST_CASE("the memory of a scene counts a mesh once however often it is placed") {

@@ -29,11 +29,12 @@ Json inspect_exr(const std::string& path) {
     j["width"] = exr.width(), j["height"] = exr.height();
     for (const ExrChannel& channel : exr.channels()) j["channels"].push_back(channel.name);
     for (const auto& [key, value] : exr.attributes()) {
+        Json& entry = j["attributes"][key];
         const bool is_object = key == "pluvia:settings" && std::holds_alternative<std::string>(value);
         if (is_object)
-            j["attributes"][key] = Json::parse(std::get<std::string>(value), nullptr, false);
+            entry = Json::parse(std::get<std::string>(value), nullptr, false);
         else
-            std::visit([&](const auto& v) { j["attributes"][key] = v; }, value);
+            std::visit([&](const auto& v) { entry = v; }, value);
     }
     return j;
 }

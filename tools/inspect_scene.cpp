@@ -91,12 +91,18 @@ Json cameras(const Scene& scene) {
 }
 
 Json images(const Scene& scene) {
+    std::vector<bool> used(scene.images.size());  // others are not decoded: gltf_texture.h
+    for (const Material& m : scene.materials)
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) {
+            if (slot.used()) used[scene.textures[slot.texture].image] = true;
+        });
     Json list = Json::array();
-    for (size_t i = 0; i < scene.images.size(); ++i)
-        list.push_back({{"index", i},
-                        {"width", scene.images[i].width},
-                        {"height", scene.images[i].height},
-                        {"megabytes", megabytes(scene.images[i].pixels.size() * sizeof(Rgba8))}});
+    for (size_t i = 0; i < scene.images.size(); ++i) {
+        list.push_back({{"index", i}, {"used", bool(used[i])}});
+        if (!used[i]) continue;
+        list.back()["width"] = scene.images[i].width, list.back()["height"] = scene.images[i].height;
+        list.back()["megabytes"] = megabytes(scene.images[i].pixels.size() * sizeof(Rgba8));
+    }
     return list;
 }
 

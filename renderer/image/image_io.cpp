@@ -4,6 +4,7 @@
 #include "renderer/image/color.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/pending_file.h"
+#include "renderer/image/png.h"
 #include "renderer/image/webp.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -182,10 +183,17 @@ ImageInfo read_image_info(const std::string& path) {
 }
 
 Image<Rgba8> decode_rgba8(std::span<const std::byte> bytes, const std::string& where) {
-    if (format_name(bytes, where) == "webp"sv) {
+    const std::string_view format = format_name(bytes, where);
+    if (format == "webp") {
         const WebpSize size = read_webp_size(bytes, where);
         check_size(where, size.width, size.height, sizeof(Rgba8));
         return decode_webp(bytes, where);
+    }
+    if (format == "png") {
+        const PngSize size = read_png_size(bytes, where);
+        check_size(where, size.width, size.height, sizeof(Rgba8));
+        check_density(bytes.size(), size.width, size.height, where);
+        return decode_png(bytes, where);
     }
     Source source(bytes, where);
     check_density(bytes.size(), source.spec().width, source.spec().height, where);

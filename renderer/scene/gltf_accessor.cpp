@@ -108,8 +108,9 @@ Elements find_elements(const tinygltf::Model& model, int index, const std::strin
     const int component_size = tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType));
     const bool is_signed_int = accessor.componentType == TINYGLTF_COMPONENT_TYPE_INT;  // glTF has none
     if (e.components <= 0 || component_size <= 0 || component_size > 4 || is_signed_int)
-        throw input_error(e.where, fmt::format("has an unknown type (got {} of component {})", accessor.type,
-                                               accessor.componentType));
+        throw input_error(e.where, fmt::format("has an unknown type (got {} components of type {}, expected type 5120 "
+                                               "to 5123, 5125 or 5126)",
+                                               e.components, accessor.componentType));
     e.component_size = size_t(component_size);
     const size_t element_size = size_t(e.components) * e.component_size;
     if (accessor.bufferView == -1) {

@@ -20,9 +20,10 @@ Rgb rgb_from(const std::vector<double>& v, Rgb otherwise) {
 class MaterialReader {
 public:
     MaterialReader(const tinygltf::Model& model, const tinygltf::Material& source, const std::string& where,
-                   Scene& scene)
+                   Scene& scene, std::vector<RoughnessPicture>& roughness_pictures)
         : source_(source),
           scene_(scene),
+          roughness_pictures_(roughness_pictures),
           slots_{model, where, fmt::format("material \"{}\"", source.name), scene.warnings} {}
 
     Material read() {
@@ -129,7 +130,7 @@ private:
         if (!m_.specular_color_texture.used()) return;
         m_.metallic_roughness_texture = m_.specular_color_texture;
         m_.metallic_roughness_texture.texture =
-            add_roughness_of_glossiness(scene_, m_.specular_color_texture.texture, glossiness);
+            add_roughness_of_glossiness(scene_, m_.specular_color_texture.texture, roughness_pictures_, glossiness);
         m_.roughness = 1;
     }
 
@@ -156,6 +157,7 @@ private:
 
     const tinygltf::Material& source_;
     Scene& scene_;
+    std::vector<RoughnessPicture>& roughness_pictures_;
     SlotReader slots_;
     Material m_;
 };
@@ -163,12 +165,16 @@ private:
 }  // namespace
 
 void read_materials(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures) {
-    read_textures(model, where, scene, pictures);
+    read_textures(model, where, scene);
+    std::vector<RoughnessPicture> roughness_pictures;
     for (const tinygltf::Material& material : model.materials)
-        scene.materials.push_back(MaterialReader(model, material, where, scene).read());
+        scene.materials.push_back(MaterialReader(model, material, where, scene, roughness_pictures).read());
     tinygltf::Material standard;
     standard.name = "default";
-    scene.materials.push_back(MaterialReader(model, standard, where, scene).read());
+    scene.materials.push_back(MaterialReader(model, standard, where, scene, roughness_pictures).read());
+    if (!pictures) return;
+    read_pictures(model, where, scene);
+    for (const RoughnessPicture& picture : roughness_pictures) make_roughness(scene, picture);
 }
 
 }  // namespace pluvia

@@ -37,10 +37,15 @@ constexpr std::array supported_extensions = {
 constexpr size_t max_entries = 100000;
 constexpr size_t max_small_entries = 2000000;
 constexpr std::array small_arrays = {"nodes", "meshes", "accessors", "bufferViews"};
+constexpr std::array arrays = {"accessors", "animations", "buffers",  "bufferViews", "cameras", "images",  "materials",
+                               "meshes",    "nodes",      "samplers", "scenes",      "skins",   "textures"};
 
 void check_entries(const Json& root, const std::string& path) {
     if (!root.is_object()) throw input_error(path, "is not readable as glTF (its JSON is not an object)");
     for (const auto& [name, value] : root.items()) {
+        if (!value.is_array() && std::find(arrays.begin(), arrays.end(), name) != arrays.end())
+            throw input_error(path,
+                              fmt::format("its {} are no list (got {}, expected [...])", name, value.type_name()));
         const bool is_small = std::find(small_arrays.begin(), small_arrays.end(), name) != small_arrays.end();
         const size_t limit = is_small ? max_small_entries : max_entries;
         if (value.is_array() && value.size() > limit)
@@ -132,7 +137,8 @@ tinygltf::Model parse_gltf(const std::string& path, const GltfSettings& settings
     try {
         root = Json::parse(file.json);
     } catch (const std::exception& e) {
-        throw input_error(path, fmt::format("is not readable as glTF ({})", e.what()));
+        const std::string text = e.what();  // after the library's own name for it, in brackets
+        throw input_error(path, fmt::format("is not readable as glTF ({})", text.substr(text.find("] ") + 2)));
     }
     file.json = {};
     check_entries(root, path);

@@ -55,33 +55,38 @@ Texture read_texture(const tinygltf::Model& model, const tinygltf::Texture& sour
 
 }  // namespace
 
-void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures) {
+void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene) {
     for (size_t i = 0; i < model.textures.size(); ++i)
         scene.textures.push_back(read_texture(model, model.textures[i], int(i), where, scene.warnings));
+    scene.images.assign(model.images.size(), Image<Rgba8>(1, 1));
+}
 
-    std::vector<bool> chosen(model.images.size()), replaced(model.images.size());
-    for (size_t i = 0; i < model.textures.size(); ++i) {
-        const int image = scene.textures[i].image, source = model.textures[i].source;
-        chosen[image] = true;
-        if (source != image && source >= 0 && source < int(model.images.size())) replaced[source] = true;
-    }
-    scene.images.resize(model.images.size());
+void read_pictures(const tinygltf::Model& model, const std::string& where, Scene& scene) {
+    std::vector<bool> seen(scene.images.size());
+    for (const Material& m : scene.materials)
+        Material::for_each_slot(m, [&](const TextureSlot& slot, const char*) {
+            if (slot.used()) seen[scene.textures[slot.texture].image] = true;
+        });
     parallel_for(int(model.images.size()), [&](int i) {
         const tinygltf::Image& image = model.images[i];
-        const bool needed = pictures && (chosen[i] || !replaced[i]);
-        scene.images[i] = needed ? read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name))
-                                 : Image<Rgba8>(1, 1);
+        if (seen[i])
+            scene.images[i] = read_image(model, image, fmt::format("{}: image {} \"{}\"", where, i, image.name));
     });
 }
 
-int add_roughness_of_glossiness(Scene& scene, int texture, float glossiness) {
+int add_roughness_of_glossiness(Scene& scene, int texture, std::vector<RoughnessPicture>& pictures, float glossiness) {
     Texture rough = scene.textures[texture];
-    Image<Rgba8> image = scene.images[rough.image];
-    for (Rgba8& p : image.pixels) p = {0, uint8_t(std::lround(255 - glossiness * float(p.a))), 0, 255};
-    rough.image = int(scene.images.size());
-    scene.images.push_back(std::move(image));
+    pictures.push_back({int(scene.images.size()), rough.image, glossiness});
+    rough.image = pictures.back().image;
+    scene.images.push_back(Image<Rgba8>(1, 1));
     scene.textures.push_back(rough);
     return int(scene.textures.size()) - 1;
+}
+
+void make_roughness(Scene& scene, const RoughnessPicture& picture) {
+    Image<Rgba8> image = scene.images[picture.source];
+    for (Rgba8& p : image.pixels) p = {0, uint8_t(std::lround(255 - picture.glossiness * float(p.a))), 0, 255};
+    scene.images[picture.image] = std::move(image);
 }
 
 TextureSlot SlotReader::read(int texture, int uv_set, const tinygltf::Value* transform, const char* name) const {

@@ -8,10 +8,13 @@
 
 namespace pluvia {
 
-/// Fills Scene::images and textures in the file's order. Of a texture that comes in several formats the one that
-/// EXT_texture_webp or MSFT_texture_dds names is taken; pictures that only serve as the fallback of such textures are
-/// not decoded and stay black texels. where: the file, for messages.
-void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene, bool pictures);
+/// Fills Scene::textures in the file's order, and Scene::images with black texels. Of a texture that comes in several
+/// formats the one that EXT_texture_webp or MSFT_texture_dds names is taken. where: the file, for messages.
+void read_textures(const tinygltf::Model& model, const std::string& where, Scene& scene);
+
+/// Decodes the pictures that Scene::materials look at. Others stay black texels: those of occlusion maps, which have no
+/// effect, and the fallbacks of textures that come in another format.
+void read_pictures(const tinygltf::Model& model, const std::string& where, Scene& scene);
 
 /// Reads the slots of one material. Uv sets beyond the second are named in a warning and the first is taken.
 struct SlotReader {
@@ -32,7 +35,13 @@ private:
     TextureSlot read(int texture, int uv_set, const tinygltf::Value* transform, const char* name) const;
 };
 
-/// Adds a texture whose green is 1 - glossiness times the alpha of another, and returns its index.
-int add_roughness_of_glossiness(Scene& scene, int texture, float glossiness);
+/// A picture whose green is 1 - glossiness times the alpha of another; both are indices of Scene::images.
+struct RoughnessPicture {
+    int image, source;
+    float glossiness;
+};
+/// Adds a texture of such a picture of another texture's, to be made when that is decoded, and returns its index.
+int add_roughness_of_glossiness(Scene& scene, int texture, std::vector<RoughnessPicture>& pictures, float glossiness);
+void make_roughness(Scene& scene, const RoughnessPicture& picture);
 
 }  // namespace pluvia

@@ -66,6 +66,7 @@ if len(arguments) > 7:
         frame = json.load(file)["camera"]
     lens = bpy.data.cameras.new("frame")
     lens.sensor_fit, lens.sensor_width = "HORIZONTAL", 36
+    lens.clip_start, lens.clip_end = 0.01, 1e5  # by themselves 0.1 and 100 m
     lens.lens = frame["intrinsics"][0][0] / int(width) * 36
     scene.camera = bpy.data.objects.new("frame", lens)
     scene.collection.objects.link(scene.camera)
