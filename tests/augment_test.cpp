@@ -1,11 +1,14 @@
 // `pluvia augment` as a user runs it: layouts, depth, what goes wrong and what goes on.
 #include "renderer/image/depth_encoding.h"
+#include "renderer/image/exposure.h"
 #include "renderer/image/exr.h"
 #include "renderer/image/image_io.h"
 #include "tests/dataset_fixture.h"
 #include "tests/error_of.h"
+#include "tests/street_pictures.h"
 #include "tools/augment/augment_items.h"
 #include "tools/augment/npy_file.h"
+#include "tools/augment/picture_exposure.h"
 
 #include <fmt/format.h>
 
@@ -18,36 +21,6 @@ namespace pluvia {
 namespace {
 
 namespace fs = std::filesystem;
-
-void write_rgb(const std::string& path, int width, int height, const std::function<Rgba8(int, int)>& pixel) {
-    fs::create_directories(fs::path(path).parent_path());
-    std::vector<uint8_t> bytes;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const Rgba8 p = pixel(x, y);
-            bytes.insert(bytes.end(), {p.r, p.g, p.b});
-        }
-    PngWriter writer(path, width, height, 3, 8);
-    writer.write_rows(0, height, bytes.data());
-    writer.finish();
-}
-
-void write_grey16(const std::string& path, int width, int height, const std::function<uint16_t(int, int)>& value) {
-    fs::create_directories(fs::path(path).parent_path());
-    std::vector<uint16_t> words;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) words.push_back(value(x, y));
-    PngWriter writer(path, width, height, 1, 16);
-    writer.write_rows(0, height, words.data());
-    writer.finish();
-}
-
-Rgba8 street(int x, int y) {
-    return {uint8_t(60 + x), uint8_t(80 + 2 * y), 120, 255};
-}
-uint16_t street_depth(int, int y) {
-    return y < 12 ? 0 : uint16_t(256 * 40 / (y - 10));
-}
 
 /// Pictures 64 x 32 named a, b, c in rgb/, with depth in depth/.
 struct SmallFolder {
@@ -246,6 +219,35 @@ TEST_CASE("unknown depth is that of the nearest known pixel, and sky where it is
     CHECK(dense.at(9, 5) == 8);
     Image<float> none(4, 4, nan);
     CHECK(error_of([&] { fill_depth(none, "none"); }).code() == ExitCode::input);
+}
+
+TEST_CASE("exposure is estimated: a day's sky has 4000 cd/m2, a night's street 1, and what is given wins") {
+    Image<float> z(20, 10, 8);
+    for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < 3; ++y) z.at(x, y) = std::numeric_limits<float>::infinity();
+    Image<Rgb> picture(20, 10, Rgb(0.1f));
+    const auto luminance_of_white = [](const ExposureEstimate& e) { return 1 / double(exposure_scale(e.ev100)); };
+    for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < 3; ++y) picture.at(x, y) = Rgb(0.5f);
+    const ExposureEstimate day = estimate_exposure(picture, z);
+    CHECK(day.by == "sky by day");
+    CHECK(0.5 * luminance_of_white(day) == doctest::Approx(4000).epsilon(1e-4));
+    for (int x = 0; x < 20; ++x)
+        for (int y = 0; y < 3; ++y) picture.at(x, y) = Rgb(0.01f);
+    const ExposureEstimate night = estimate_exposure(picture, z);
+    CHECK(night.by == "surfaces by night");
+    CHECK(0.1 * luminance_of_white(night) == doctest::Approx(1).epsilon(1e-4));
+    const Image<float> wall(20, 10, 8);
+    CHECK(estimate_exposure(Image<Rgb>(20, 10, Rgb(0.2f)), wall).by == "surfaces by day");
+    CHECK(estimate_exposure(Image<Rgb>(20, 10, Rgb(0.02f)), wall).by == "surfaces by night");
+    CHECK(estimate_exposure(Image<Rgb>(20, 10, Rgb(0)), wall).ev100 == 12);
+
+    const SmallFolder set;
+    REQUIRE(set.run("guessed").exit_code == 0);
+    REQUIRE(set.run("given", "--exposure 11.5").exit_code == 0);
+    CHECK(set.record("guessed", "a")["exposure_from"] == "sky by day");
+    CHECK(set.record("given", "a")["exposure_from"] == "given");
+    CHECK(set.record("given", "a")["exposure_ev100"] == 11.5);
 }
 
 TEST_CASE("a frame of pluvia render is augmented by its own frame.json with its own coverage") {

@@ -117,6 +117,11 @@ void RainMedium::optical_depths(const RainSegment& segment, float distance, floa
     for (size_t i = 0; i < intensities_; ++i) depths[i] = std::max(0.0f, depths[i]);
 }
 
+void RainMedium::axis_depths(float z, float* depths) const {
+    const Place place = place_at(z);
+    for (size_t i = 0; i < intensities_; ++i) depths[i] = depth(proposals + i, place);
+}
+
 bool RainMedium::total_depths(const RainSegment& segment, std::array<float, proposals>& totals) const {
     const Place begin = place_at(segment.begin * segment.cosine), end = place_at(segment.end * segment.cosine);
     bool any = true;

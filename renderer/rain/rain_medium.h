@@ -43,6 +43,8 @@ public:
 
     /// Optical depths of the drops of each intensity of the settings from the segment's begin to a distance within it.
     void optical_depths(const RainSegment& segment, float distance, float* depths) const;
+    /// The same along the view axis from view depth 0 to z.
+    void axis_depths(float z, float* depths) const;
     float fog_depth(const RainSegment& segment, float distance) const {
         return fog_extinction_ * (distance - segment.begin);
     }

@@ -15,14 +15,31 @@ namespace {
 
 // The phase function falls to a half within 20 degrees and is smooth but for the rainbow, of 1 % of the light.
 constexpr int table_width = 64, table_height = 32, source_width = 128, source_height = 64;
+constexpr int points = 4;  // across a source: the sun of a picture of the sky is smaller than a source
 
-Vec3 direction_of(int x, int y, int width, int height) {
-    return Vec3(direction_from_azimuth(((x + 0.5) / width - 0.25) * 2 * pi, (0.5 - (y + 0.5) / height) * pi));
+Vec3 direction_of(double x, double y, int width, int height) {
+    return Vec3(direction_from_azimuth((x / width - 0.25) * 2 * pi, (0.5 - y / height) * pi));
+}
+
+Image<Rgb> cell_means(const std::function<Rgb(Vec3)>& radiance) {
+    Image<Rgb> cells(source_width, source_height);
+    parallel_for(source_height, [&](int y) {
+        for (int x = 0; x < source_width; ++x) {
+            Rgb sum;
+            for (int j = 0; j < points; ++j)
+                for (int i = 0; i < points; ++i)
+                    sum += radiance(
+                        direction_of(x + (i + 0.5) / points, y + (j + 0.5) / points, source_width, source_height));
+            cells.at(x, y) = sum / float(points * points);
+        }
+    });
+    return cells;
 }
 
 }  // namespace
 
-FarLight::FarLight(const std::function<Rgb(Vec3)>& radiance) : table_(table_width, table_height) {
+FarLight::FarLight(const std::function<Rgb(Vec3)>& radiance, const std::function<Rgb(Vec3)>& open)
+    : radiance_(cell_means(radiance)), open_(cell_means(open)), table_(table_width, table_height) {
     struct Source {
         Vec3 direction;
         Rgb radiance;
@@ -31,12 +48,12 @@ FarLight::FarLight(const std::function<Rgb(Vec3)>& radiance) : table_(table_widt
     std::vector<Source> sources;
     for (int y = 0; y < source_height; ++y)
         for (int x = 0; x < source_width; ++x) {
-            const Vec3 d = direction_of(x, y, source_width, source_height);
-            sources.push_back({d, radiance(d), std::sqrt(std::max(0.0f, 1 - d.y * d.y))});
+            const Vec3 d = direction_of(x + 0.5, y + 0.5, source_width, source_height);
+            sources.push_back({d, radiance_.at(x, y), std::sqrt(std::max(0.0f, 1 - d.y * d.y))});
         }
     parallel_for(table_height, [&](int y) {
         for (int x = 0; x < table_width; ++x) {
-            const Vec3 towards = direction_of(x, y, table_width, table_height);
+            const Vec3 towards = direction_of(x + 0.5, y + 0.5, table_width, table_height);
             std::array<double, 3> sum = {};
             double weights = 0;
             for (const Source& source : sources) {
@@ -58,6 +75,12 @@ Rgb FarLight::of_drop(Vec3 direction) const {
     const int left = (x0 + table_width) % table_width, right = (left + 1) % table_width;
     return mix(mix(table_.at(left, y0), table_.at(right, y0), s),
                mix(table_.at(left, y0 + 1), table_.at(right, y0 + 1), s), t);
+}
+
+Rgb FarLight::cell(const Image<Rgb>& cells, Vec3 direction) {
+    const Vec2 uv = equirectangular_from_direction(direction);
+    return cells.at(std::clamp(int(uv.x * source_width), 0, source_width - 1),
+                    std::clamp(int(uv.y * source_height), 0, source_height - 1));
 }
 
 }  // namespace pluvia

@@ -1,5 +1,5 @@
 // What a drop shows if all that it sees is infinitely far: light from all around, blurred by the drop's phase function,
-// as a table over the camera's directions. Quick and without noise, for the medium of fine rain in front of pictures.
+// as a table over the camera's directions. Quick and without noise; drop_light.h adds what is near.
 #pragma once
 
 #include "renderer/core/rgb.h"
@@ -12,15 +12,22 @@ namespace pluvia {
 
 class FarLight {
 public:
-    /// radiance: from a unit direction towards the light, cd/m2.
-    explicit FarLight(const std::function<Rgb(Vec3)>& radiance);
+    /// From a unit direction towards the light, cd/m2. radiance: as the camera sees it; open: if no surface stood
+    /// there.
+    FarLight(const std::function<Rgb(Vec3)>& radiance, const std::function<Rgb(Vec3)>& open);
 
     /// Radiance of a drop towards the camera, cd/m2. direction: of the camera's ray, unit. Light of one radiance from
     /// everywhere comes back as it is, to rounding.
     Rgb of_drop(Vec3 direction) const;
 
+    /// What it was made of: means over cells of about 3 degrees.
+    Rgb radiance(Vec3 direction) const { return cell(radiance_, direction); }
+    Rgb open(Vec3 direction) const { return cell(open_, direction); }
+
 private:
-    Image<Rgb> table_;  // equirectangular, as environments are
+    static Rgb cell(const Image<Rgb>& cells, Vec3 direction);
+
+    Image<Rgb> radiance_, open_, table_;  // equirectangular, as environments are
 };
 
 }  // namespace pluvia

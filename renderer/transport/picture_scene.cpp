@@ -238,14 +238,15 @@ Environment estimate_environment(const PictureSource& picture, const View& view,
 FarLight make_far_light(const PictureSource& picture, const View& view, const Environment& environment,
                         const PictureSceneSettings& settings) {
     const Environment estimated = estimate_environment(picture, view, settings);
-    return FarLight([&](Vec3 direction) {
+    const auto radiance = [&](Vec3 direction) {
         const Vec3 seen = Vec3(view.view_from_world(view.position + Vec3d(direction)));
         if (seen.z <= 0) return environment.radiance(direction);
         const Vec2 pixel = view.pixel_from_view(seen);
         const bool inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x < float(view.width) && pixel.y < float(view.height);
         const bool surface = inside && std::isfinite(picture.z.at(int(pixel.x), int(pixel.y)));
         return surface ? estimated.radiance(direction) : environment.radiance(direction);
-    });
+    };
+    return FarLight(radiance, [&](Vec3 direction) { return environment.radiance(direction); });
 }
 
 }  // namespace pluvia

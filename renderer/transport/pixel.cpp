@@ -12,6 +12,27 @@ void add(std::array<double, 3>& sum, Rgb value) {
     sum[0] += value.r, sum[1] += value.g, sum[2] += value.b;
 }
 
+/// count: of samples that are alike.
+void add_rain(Rgb background, double count, const std::vector<RainSample>& samples, PixelSums& sums,
+              Counters& counters) {
+    const auto add = [count](std::array<double, 3>& sum, Rgb value) {
+        sum[0] += count * value.r, sum[1] += count * value.g, sum[2] += count * value.b;
+    };
+    for (size_t i = 0; i < samples.size(); ++i) {
+        const RainSample& rain = samples[i];
+        if (!is_finite(rain.light + rain.inscatter)) {
+            counters.invalid_samples += uint64_t(count);
+            continue;
+        }
+        add(sums.rain[i].removed, background * (1 - rain.transmission));
+        add(sums.rain[i].light, rain.light);
+        add(sums.rain[i].inscatter, rain.inscatter);
+        sums.rain[i].coverage += count * rain.coverage;
+        sums.rain[i].wide_coverage += count * rain.wide_coverage;
+        sums.rain[i].blocked += count * (1 - rain.transmission);
+    }
+}
+
 void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scratch, Counters& counters) {
     const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
     const Vec2 u = sampler.get_2d(Draw::pixel);
@@ -48,19 +69,7 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
         segment.dry =
             scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
-    for (size_t i = 0; i < scratch.rain.size(); ++i) {
-        const RainSample& rain = scratch.rain[i];
-        if (!is_finite(rain.light + rain.inscatter)) {
-            ++counters.invalid_samples;
-            continue;
-        }
-        add(sums.rain[i].removed, path.radiance * (1 - rain.transmission));
-        add(sums.rain[i].light, rain.light);
-        add(sums.rain[i].inscatter, rain.inscatter);
-        sums.rain[i].coverage += rain.coverage;
-        sums.rain[i].wide_coverage += rain.wide_coverage;
-        sums.rain[i].blocked += 1 - rain.transmission;
-    }
+    add_rain(path.radiance, 1, scratch.rain, sums, counters);
 }
 
 }  // namespace
@@ -72,8 +81,47 @@ void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch) {
     if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
 }
 
+/// Samples of a picture's pixel, which is the same for all of them but for the streaks that they meet.
+static void add_picture_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch,
+                                Counters& counters) {
+    const PictureSource& picture = *frame.picture;
+    const Rgb background = picture.radiance.at(x, y);
+    PixelSums& sums = scratch.film.sums;
+    add(sums.background, background * float(end - begin));
+    if (scratch.candidates.empty() && !frame.has_medium) return;
+    const float dark = std::max(frame.dark, luminance(background));
+    const auto segment = [&](Vec2 pixel, const Ray& seen) {
+        return CameraSegment{pixel, scratch.candidates, scene_ray(frame.view, frame.far_scene, seen).ray,
+                             seen,  background,         dark};
+    };
+    const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
+    Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
+    seen.t_max = picture.along(x, y, seen).distance;
+    frame.rain->begin_pixel(x, y, segment(centre, seen), scratch.veil);
+    int untouched = 0;
+    for (int s = begin; s < end; ++s) {
+        const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(s));
+        const Vec2 u = sampler.get_2d(Draw::pixel), pixel{float(x) + u.x, float(y) + u.y};
+        if (frame.view.lens_radius > 0) counters.count(Feature::lens);
+        counters.count(Feature::camera_path);
+        counters.count(Feature::streak_test);
+        seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
+        seen.t_max = picture.along(x, y, seen).distance;
+        find_hits(*frame.bins, scratch.candidates, pixel, seen, scratch.streaks.hits);
+        if (scratch.streaks.hits.empty()) {
+            ++untouched;
+            continue;
+        }
+        frame.rain->evaluate(segment(pixel, seen), scratch.veil, sampler, scratch.rain, scratch.streaks, counters);
+        add_rain(background, 1, scratch.rain, sums, counters);
+    }
+    add_rain(background, untouched, scratch.veil.untouched, sums, counters);
+}
+
 void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch, Counters& counters) {
-    if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
+    if (frame.rain && frame.rain->has_drop_light())
+        add_picture_samples(frame, x, y, begin, end, scratch, counters);
+    else if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
         add(scratch.film.sums.background, frame.picture->radiance.at(x, y) * float(end - begin));
     else
         for (int s = begin; s < end; ++s) add_sample(frame, x, y, s, scratch, counters);

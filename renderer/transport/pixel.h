@@ -55,6 +55,7 @@ struct PixelScratch {
     CentreDepth depth;
     std::vector<RainSample> rain;
     RainScratch streaks;
+    PixelVeil veil;
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<float> values;

@@ -30,6 +30,7 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
     counters.count(Feature::streak_test);
     find_hits(*bins_, segment.candidates, segment.pixel, segment.view_ray, scratch.hits);
     scratch.scattered_count = 0;
+    scratch.veil.clear();
     scratch.transmissions.assign((scratch.hits.size() + 1) * intensities_.size(), 1.0f);
     RainSegment in_rain;
     if (medium_) {
@@ -39,13 +40,10 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
         in_rain.dry = segment.dry;
     }
     if (scratch.hits.empty() && in_rain.empty()) return false;
-    if (!scratch.hits.empty() || !settings_.far_light) sample_distant(sampler, scratch);
+    sample_distant(sampler, scratch);
     if (!in_rain.empty()) {
         find_transmissions(in_rain, scratch);
-        if (settings_.far_light && !tracer_->lights().has_local() && !medium_->has_fog())
-            scatter_far_light(segment, in_rain, sampler, scratch);
-        else
-            scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
+        scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
         if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
     }
     scratch.light.clear();
@@ -136,31 +134,6 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
     if (lights.has_local()) scatter_near_lamp(scatterer, segment, in_rain, anchor, sampler, scratch, counters);
 }
 
-/// The same light wherever on the ray: its share is known, 1 - transmission, but for what streaks before it hide. That
-/// is estimated at one distance d with weight w: (1 - T) L - w L + w L (streaks before d let pass).
-void RainStage::scatter_far_light(const CameraSegment& segment, const RainSegment& in_rain,
-                                  const Sampler& pixel_sampler, RainScratch& scratch) const {
-    const Rgb light = settings_.far_light->of_drop(segment.ray.direction);
-    const float* const transmissions = scratch.transmissions.data() + scratch.hits.size() * intensities_.size();
-    auto& known = scratch.scattered[0];
-    scratch.scattered_count = 1;
-    known.distance = 0;
-    known.light.resize(intensities_.size());
-    for (size_t i = 0; i < intensities_.size(); ++i) known.light[i] = light * (1 - transmissions[i]);
-    if (scratch.hits.empty()) return;
-    const Sampler sampler = pixel_sampler.fork(hash_key(medium_domain, uint64_t(Scatterer::drop)));
-    medium_->sample(Scatterer::drop, in_rain, sampler.get_1d(Draw::medium_distance), scratch.scattering);
-    if (scratch.scattering.distance == 0) return;
-    auto& behind = scratch.scattered[1];
-    scratch.scattered_count = 2;
-    behind.distance = scratch.scattering.distance;
-    behind.light.resize(intensities_.size());
-    for (size_t i = 0; i < intensities_.size(); ++i) {
-        behind.light[i] = light * scratch.scattering.weights[i];
-        known.light[i] = known.light[i] - behind.light[i];
-    }
-}
-
 /// Light of one lamp at a point of the segment that is sampled close to the lamp: without it the halo of a lamp is all
 /// fireflies.
 void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain,
@@ -197,13 +170,20 @@ void RainStage::scatter_near_lamp(Scatterer scatterer, const CameraSegment& segm
         });
 }
 
+Sampler RainStage::streak_sampler(const StreakHit& hit, const Sampler& sampler) const {
+    return sampler.fork(hash_key(rain_domain, bins_->streaks()[hit.streak].key));
+}
+
+/// Whether the drop is looked into. From one to two pixels of width the picture in it takes over from its mean.
+bool RainStage::shows_picture(const StreakHit& hit, const Sampler& sampler) const {
+    return hit.width >= 2 || (hit.width > 1 && sampler.get_1d(Draw::medium_anchor) < hit.width - 1);
+}
+
 /// How the drop turns light at the place of its streak that the ray meets.
 ScatterFunction RainStage::streak_scatter(const StreakHit& hit, const CameraSegment& segment,
                                           const Sampler& sampler) const {
     if (settings_.composition == Composition::physical) {
-        // From one to two pixels of width the picture in the drop takes over from its mean.
-        const bool seen = hit.width >= 2 || (hit.width > 1 && sampler.get_1d(Draw::medium_anchor) < hit.width - 1);
-        if (seen) return lens_scatter(hit, segment, sampler);
+        if (shows_picture(hit, sampler)) return lens_scatter(hit, segment, sampler);
     }
     if (settings_.composition == Composition::physical || !settings_.textures)
         return DropScatter{segment.ray.direction};
@@ -243,21 +223,24 @@ float RainStage::paper_weight(const StreakHit& hit, const CameraSegment& segment
     return paper_alpha(hit.covered.fraction(), 2 * streak.radius, length(across) * bins_->exposure_time());
 }
 
+/// Factor on the light of a streak in the picture, if nothing is before it.
+float RainStage::streak_weight(const StreakHit& hit, const CameraSegment& segment) const {
+    const bool paper = settings_.composition == Composition::paper;
+    return paper ? float(settings_.paper_gain) * paper_weight(hit, segment) : hit.covered.fraction();
+}
+
 /// Radiance of the drop towards the camera, computed for a share of the samples.
 Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
-                            const std::optional<LightSample>& distant, const Sampler& pixel_sampler,
-                            Counters& counters) const {
+                            const std::optional<LightSample>& distant, const Sampler& pixel_sampler, Counters& counters,
+                            float most) const {
     counters.count(Feature::streak_hit);
-    // Numbers of a drop's own: its light does not depend on which other drops are there.
-    const Sampler sampler = pixel_sampler.fork(hash_key(rain_domain, bins_->streaks()[hit.streak].key));
+    const Sampler sampler = streak_sampler(hit, pixel_sampler);
     const ScatterFunction function = streak_scatter(hit, segment, sampler);
     const ScatteredLight event(*tracer_, function, segment.ray.at(hit.covered.distance), distant, sampler);
     // What the light could bring beside the background. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
-    const bool paper = settings_.composition == Composition::paper;
-    const float weight = paper ? float(settings_.paper_gain) * paper_weight(hit, segment) : hit.covered.fraction();
-    const float q = worth(weight * brightness, segment, settings_.streak_roulette);
+    const float q = std::min(most, worth(streak_weight(hit, segment) * brightness, segment, settings_.streak_roulette));
     if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
     counters.count(Feature::streak_path);
     const Rgb light = event.trace(segment.background_luminance, counters);
@@ -274,15 +257,24 @@ RainSample RainStage::compose_physical(const RainScratch& scratch, size_t intens
         for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
             sample.inscatter += scratch.scattered[scattered].light[intensity] * covered.transmittance();
     };
+    Rgb veil;
+    const auto veil_before = [&](size_t k) {
+        if (scratch.veil.empty()) return;
+        const Rgb here = scratch.veil[k * intensities_.size() + intensity];
+        sample.inscatter += (here - veil) * covered.transmittance();
+        veil = here;
+    };
     for (size_t k = 0; k < count; ++k) {
         const StreakHit& hit = scratch.hits[k];
         if (bins_->streaks()[hit.streak].threshold_mm_per_h > intensities_[intensity]) continue;
         scatter_before(hit.covered.distance);
+        veil_before(k);
         const float weight = covered.add(hit.covered.begin, hit.covered.end);
         if (hit.width >= 1) sample.wide_coverage += weight;
         sample.light += scratch.light[k] * (weight * transmission[k * intensities_.size()]);
     }
     scatter_before(std::numeric_limits<float>::infinity());
+    veil_before(count);
     sample.coverage = covered.total();
     sample.transmission = covered.transmittance() * transmission[count * intensities_.size()];
     return sample;
@@ -299,11 +291,19 @@ RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegm
         for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
             sample.inscatter += scratch.scattered[scattered].light[intensity] * transmittance;
     };
+    Rgb veil;
+    const auto veil_before = [&](size_t k) {
+        if (scratch.veil.empty()) return;
+        const Rgb here = scratch.veil[k * intensities_.size() + intensity];
+        sample.inscatter += (here - veil) * transmittance;
+        veil = here;
+    };
     for (size_t k = 0; k < count; ++k) {
         const StreakHit& hit = scratch.hits[k];
         const Streak& streak = bins_->streaks()[hit.streak];
         if (streak.threshold_mm_per_h > intensities_[intensity]) continue;
         scatter_before(hit.covered.distance);
+        veil_before(k);
         const float alpha = paper_weight(hit, segment);
         sample.light += scratch.light[k] *
                         (transmission[k * intensities_.size()] * transmittance * alpha * float(settings_.paper_gain));
@@ -311,6 +311,7 @@ RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegm
         transmittance *= 1 - alpha;
     }
     scatter_before(std::numeric_limits<float>::infinity());
+    veil_before(count);
     sample.coverage = 1 - transmittance;
     sample.transmission = transmittance * transmission[count * intensities_.size()];
     return sample;

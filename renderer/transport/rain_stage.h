@@ -6,7 +6,7 @@
 
 #include "renderer/rain/rain_medium.h"
 #include "renderer/rain/streak_bins.h"
-#include "renderer/transport/far_light.h"
+#include "renderer/transport/drop_light.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/scattered_light.h"
 
@@ -33,8 +33,8 @@ struct StreakSettings {
     /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. At 0.25 time
     /// times error of the rainy picture is least on wet streets by day, and it has less noise than the clean one.
     double streak_roulette = 0.25, medium_roulette = 0.25;
-    /// Light of the medium in place of traced paths, where there are neither lamps nor fog: quick, but BIASED where
-    /// what is near looks different from a drop than from the camera. Null: traced.
+    /// In front of pictures without fog: what is far around, with which light of drops too fine to show where they are
+    /// comes from drop_light.h. Null: their paths are traced.
     std::shared_ptr<const FarLight> far_light = nullptr;
 };
 
@@ -71,6 +71,21 @@ struct RainScratch {
     std::array<Scattered, 4> scattered;  // the first scattered_count are valid, in order of distance
     int scattered_count = 0;
     RainMedium::Scattering scattering;
+    std::vector<Rgb> veil;  // in place of the scattered: in-scattered light up to each hit, per intensity
+};
+
+/// What the samples of a picture's pixel share: light of drops along its ray, and the medium between the slices of
+/// DropLight.
+struct PixelVeil {
+    int x = 0, y = 0;
+    int last = 0;  // slice of the surface
+    RainSegment in_rain;
+    std::array<Rgb, DropLight::slices> light;  // of drops, up to the slice of the surface
+    std::vector<float> transmissions;          // to where each slice begins, per intensity
+    std::vector<Rgb> inscatter;                // the same
+    std::vector<float> begin_depths;           // optical, along the view axis to where the rain begins, per intensity
+    std::vector<float> depths;                 // a buffer of as many
+    std::vector<RainSample> untouched;         // per intensity: what a sample is that no streak touches
 };
 
 class RainStage {
@@ -78,6 +93,15 @@ public:
     /// Keeps references. intensities: in mm/h, any order, those of the medium. medium: null where all rain is streaks.
     RainStage(const PathTracer& tracer, const StreakBins& bins, const RainMedium* medium,
               std::vector<double> intensities_mm_per_h, const StreakSettings& settings);
+
+    /// The same with light of fine drops from a table. Keeps a reference.
+    void set_drop_light(const DropLight& light);
+    bool has_drop_light() const { return drop_light_ != nullptr; }
+    /// For all samples of a pixel, where there is a drop_light; segment: of its centre.
+    void begin_pixel(int x, int y, const CameraSegment& segment, PixelVeil& veil) const;
+    /// A sample with the streaks of scratch.hits, of which there is at least one.
+    void evaluate(const CameraSegment& segment, PixelVeil& veil, const Sampler& sampler,
+                  std::vector<RainSample>& samples, RainScratch& scratch, Counters& counters) const;
 
     /// samples: one per intensity, overwritten. False when no rain touches the segment: then samples are untouched.
     bool evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
@@ -88,14 +112,20 @@ private:
     void find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const;
     void scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
                  RainScratch& scratch, Counters& counters) const;
-    void scatter_far_light(const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
-                           RainScratch& scratch) const;
     void scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, Vec3 anchor,
                            const Sampler& sampler, RainScratch& scratch, Counters& counters) const;
     RainSample compose_physical(const RainScratch& scratch, size_t intensity) const;
     RainSample compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const;
+    /// Numbers of a drop's own: its light does not depend on which other drops are there.
+    Sampler streak_sampler(const StreakHit& hit, const Sampler& sampler) const;
+    Rgb find_veil(const PixelVeil& veil, int slice, size_t intensity, float transmission) const;
+    bool shows_picture(const StreakHit& hit, const Sampler& sampler) const;
+    Rgb fine_light(const StreakHit& hit, const CameraSegment& segment, const PixelVeil& veil, int slice,
+                   const Sampler& sampler) const;
+    float streak_weight(const StreakHit& hit, const CameraSegment& segment) const;
+    /// most: of the probability with which the light is computed.
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,
-                     const Sampler& sampler, Counters& counters) const;
+                     const Sampler& sampler, Counters& counters, float most = 1) const;
     ScatterFunction streak_scatter(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler) const;
     ScatterFunction lens_scatter(const StreakHit& hit, const CameraSegment& segment, const Sampler& sampler) const;
     float paper_weight(const StreakHit& hit, const CameraSegment& segment) const;
@@ -107,6 +137,8 @@ private:
     const PathTracer* tracer_;
     const StreakBins* bins_;
     const RainMedium* medium_;
+    const DropLight* drop_light_ = nullptr;
+    std::vector<float> slice_depths_;  // optical depth from view depth 0 to where each slice ends, per intensity
     std::vector<double> intensities_;
     StreakSettings settings_;
 };

@@ -157,6 +157,7 @@ RenderReport render_frame(const Scene& scene, const Environment& environment, co
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
+    std::optional<DropLight> drop_light;
     Frame frame{view, settings, tracer, picture, picture ? dark_luminance(*picture) : 0};
     if (!picture) frame.far_scene = far_bounds(scene, view);
     if (!settings.rain.intensities_mm_per_h.empty()) {
@@ -177,6 +178,9 @@ RenderReport render_frame(const Scene& scene, const Environment& environment, co
         frame.has_medium = medium.has_value();
         if (shadow && fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
+        if (picture && settings.streaks.far_light && !(rain.fog_extinction > 0))
+            frame.rain->set_drop_light(
+                drop_light.emplace(tracer, *settings.streaks.far_light, *picture, view, settings.seed));
     }
     const LabelLayers& layers = settings.labels.layers;
     std::optional<LabelTracer> labels;

@@ -8,6 +8,7 @@
 #include "renderer/image/image_io.h"
 #include "renderer/transport/picture_scene.h"
 #include "tools/augment/augment_files.h"
+#include "tools/augment/picture_exposure.h"
 #include "tools/dataset/file_hash.h"
 #include "tools/dataset/record.h"
 #include "tools/dataset/work_folder.h"
@@ -22,9 +23,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double assumed_ev100 = 12;  // an overcast day
-
-Image<Rgb> read_exr_picture(const std::string& path, double& ev100) {
+/// ev100: what the file says, else that of a light meter.
+Image<Rgb> read_exr_picture(const std::string& path, double& ev100, std::string& by) {
     ExrReader exr(path);
     const ExrLayer layer = find_layer(exr.channels(), "", path);
     if (layer.channels.size() != 3) throw input_error(path, "has no colour");
@@ -45,6 +45,7 @@ Image<Rgb> read_exr_picture(const std::string& path, double& ev100) {
     const auto known = exr.attributes().find("pluvia:exposure_ev100");
     const bool has_exposure = known != exr.attributes().end() && std::holds_alternative<float>(known->second);
     ev100 = has_exposure ? double(std::get<float>(known->second)) : histogram.auto_ev100();
+    by = has_exposure ? "file" : "light meter";
     return image;
 }
 
@@ -60,6 +61,7 @@ Json item_json(const AugmentItem& item, const AugmentSettings& settings, const P
                   {"filled_pixels", picture.filling.filled},
                   {"sky_pixels", picture.filling.sky},
                   {"assumed_sky_pixels", picture.filling.assumed_sky}};
+    j["exposure_from"] = picture.exposed_by;
     j["environment"] = settings.environment ? "given" : "estimated";
     j["streaks"] = report.streaks;
     for (size_t i = 0; i < header.intensities.size(); ++i)
@@ -98,38 +100,51 @@ AugmentSettings::AugmentSettings(const AugmentOptions& o) : options(o), render(r
 
 PictureInput read_picture(const AugmentItem& item, const AugmentSettings& settings) {
     PictureInput picture;
+    bool in_nits = true;
     if (is_exr(item.picture)) {
-        picture.source.radiance = read_exr_picture(item.picture, picture.ev100);
-        if (settings.ev100) picture.ev100 = *settings.ev100;
+        picture.source.radiance = read_exr_picture(item.picture, picture.ev100, picture.exposed_by);
     } else {
-        picture.ev100 = settings.ev100.value_or(assumed_ev100);
-        const float white = 1 / exposure_scale(picture.ev100);
         const bool is_float = read_image_info(item.picture).is_float;
         picture.source.radiance = is_float ? read_radiance(item.picture) : read_display(item.picture);
-        const bool coded = !is_float && settings.options.curve == "srgb";
-        for (Rgb& c : picture.source.radiance.pixels) {
-            if (coded) c = {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
-            c *= white;
-        }
+        if (!is_float && settings.options.curve == "srgb")
+            for (Rgb& c : picture.source.radiance.pixels)
+                c = {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+        in_nits = false;
     }
-    picture.source.z = read_depth(item.depth, item.format);
     const Image<Rgb>& p = picture.source.radiance;
+    DepthFormat format = item.format;
+    if (format.lidar && format.lidar->width == 0) {
+        LidarProjection lidar = *format.lidar;
+        lidar.width = p.width, lidar.height = p.height;
+        format.lidar = std::make_shared<LidarProjection>(lidar);
+    }
+    picture.source.z = read_depth(item.depth, format);
     const Image<float>& z = picture.source.z;
     if (p.width != z.width || p.height != z.height)
         throw input_error(item.depth, fmt::format("is of another size than {} (got {} x {}, expected {} x {})",
                                                   item.picture, z.width, z.height, p.width, p.height));
     picture.filling = fill_depth(picture.source.z, item.depth);
+    if (settings.ev100) {
+        picture.ev100 = *settings.ev100, picture.exposed_by = "given";
+    } else if (!in_nits) {
+        const ExposureEstimate estimate = estimate_exposure(p, picture.source.z);
+        picture.ev100 = estimate.ev100, picture.exposed_by = estimate.by;
+    }
+    if (!in_nits)
+        for (Rgb& c : picture.source.radiance.pixels) c *= 1 / exposure_scale(picture.ev100);
     return picture;
 }
 
 std::string settings_hash(const AugmentItem& item, const AugmentOptions& options) {
     // The number of the layout: files of items done by an older one are made anew.
-    constexpr int layout = 1;
+    constexpr int layout = 2;
     const Transform& t = item.camera.world_from_camera;
     std::string camera = fmt::format("{} {} {} {}", item.camera.focal_pixels, item.camera.fov, item.camera.mid_exposure,
                                      item.camera.exposure_time.value_or(0));
     if (item.camera.centre) camera += fmt::format(" {} {}", item.camera.centre->x, item.camera.centre->y);
-    for (const Vec3d v : {t.column_x, t.column_y, t.column_z, t.translation, item.camera.velocity})
+    const Transform lidar = item.format.lidar ? item.format.lidar->camera_from_lidar : Transform();
+    for (const Vec3d v : {t.column_x, t.column_y, t.column_z, t.translation, item.camera.velocity, lidar.column_x,
+                          lidar.column_y, lidar.column_z, lidar.translation})
         camera += fmt::format(" {} {} {}", v.x, v.y, v.z);
     return fmt::format(
         "{:016x}", hash_text(fmt::format("{} {} {} {} {} {} {} {} {}", layout, item.name, item.rain,
@@ -148,8 +163,7 @@ void augment_item(const AugmentItem& item, const AugmentSettings& settings, cons
     const Environment environment =
         settings.environment ? *settings.environment : estimate_environment(picture.source, view);
     RenderSettings render_settings = settings.render;
-    const bool physical = render_settings.streaks.composition == Composition::physical;
-    if (physical && options.veil == "far")
+    if (options.veil == "far")
         render_settings.streaks.far_light =
             std::make_shared<FarLight>(make_far_light(picture.source, view, environment));
     if (!item.rain.empty()) render_settings.rain.seed = hash_key(render_settings.rain.seed, hash_text(item.rain));

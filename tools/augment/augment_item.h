@@ -24,6 +24,7 @@ struct PictureInput {
     PictureSource source;
     DepthFilling filling;
     double ev100 = 0;
+    std::string exposed_by;  // where that comes from
 };
 /// Throws Error (input) with the file.
 PictureInput read_picture(const AugmentItem& item, const AugmentSettings& settings);

@@ -39,8 +39,11 @@ void add_augment_options(CLI::App& command, AugmentOptions& o) {
     command
         .add_option(
             "--exposure", r.exposure,
-            "EV at ISO 100 that the pictures were taken at; auto: 12, or what an EXR file says. It decides over "
-            "cd/m2 alone, so only where --environment brings light of its own")
+            "EV at ISO 100 that the pictures were taken at; auto: what an EXR file says, else such that a day's sky "
+            "has "
+            "4000 cd/m2, a day's street without sky 1300, a night's 1 (night: the sky below 10 % of white and darker "
+            "than the street, or a picture without sky below 5 %). It decides over cd/m2 alone, so only where "
+            "--environment brings light of its own")
         ->capture_default_str()
         ->group(input);
 
@@ -68,9 +71,12 @@ void add_augment_options(CLI::App& command, AugmentOptions& o) {
     const CLI::Validator seed_range = CLI::Range(0.0, 0x1p64 * (1 - 0x1p-53)).description("");
     command.add_option("--spp", r.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
-        .add_option("--veil", o.veil,
-                    "light of rain too fine for streaks: far, as if all that it shows were far away, quick and smooth "
-                    "but BIASED; or traced. Pictures with lamps and fog are always traced")
+        .add_option(
+            "--veil", o.veil,
+            "light of rain too fine for streaks, of drops narrower than a pixel and of the paper's streaks: far, "
+            "interpolated between some thousand places of the view, quick and smooth but BIASED: by 1 % of this "
+            "light, by more in the darkest parts, where there is little, and halos of lamps are 1/64 of the "
+            "picture wide at least; or traced. With fog always traced")
         ->capture_default_str()
         ->group(quality);
     command.add_option("--seed", r.seed, "of all random numbers")

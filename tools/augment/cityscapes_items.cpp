@@ -64,11 +64,12 @@ std::vector<AugmentItem> cityscapes_items(const AugmentOptions& o) {
             } catch (const Error& e) {
                 item.fault = e.what();
             }
-            for (const char* ending :
-                 {"labelIds.png", "labelTrainIds.png", "instanceIds.png", "color.png", "polygons.json"}) {
-                const std::string path = fmt::format("gtFine/{}_gtFine_{}", place, ending);
-                if (!right && fs::exists(o.input + "/" + path)) item.labels.push_back({o.input + "/" + path, path});
-            }
+            for (const char* kind_of_label : {"gtFine", "gtCoarse"})
+                for (const char* ending : {"labelIds.png", "labelTrainIds.png", "instanceIds.png",
+                                           "instanceTrainIds.png", "color.png", "polygons.json"}) {
+                    const std::string path = fmt::format("{0}/{1}_{0}_{2}", kind_of_label, place, ending);
+                    if (!right && fs::exists(o.input + "/" + path)) item.labels.push_back({o.input + "/" + path, path});
+                }
             items.push_back(std::move(item));
         }
     }

@@ -1,10 +1,10 @@
-// KITTI. Of the object benchmark image_2 and image_3 with calib, and depth_2 and depth_3 (kitti16); below the input or
-// below its folder training. Of raw data DATE/DRIVE/image_02 and image_03 with calib_*.txt, timestamps and oxts, and
-// proj_depth/groundtruth as the depth benchmark has it.
+// KITTI. Of the object benchmark image_2 and image_3 with calib, and depth_2 and depth_3 (kitti16) or velodyne; below
+// the input or below its folders training and testing. Of raw data DATE/DRIVE/image_02 and image_03 with calib_*.txt,
+// timestamps and oxts, and proj_depth as the depth benchmark has it, or velodyne_points. More in kitti_sequences.cpp.
 // Source: Geiger et al. 2013, "Vision meets Robotics: The KITTI Dataset", and the development kit's conversion of oxts.
 #include "renderer/core/error.h"
 #include "renderer/core/units.h"
-#include "tools/augment/augment_items.h"
+#include "tools/augment/kitti_files.h"
 
 #include <fmt/format.h>
 
@@ -13,58 +13,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <sstream>
 
 namespace pluvia {
 namespace {
 
 namespace fs = std::filesystem;
-using NumberTable = std::map<std::string, std::vector<double>>;
-
-/// Lines "KEY: numbers".
-NumberTable read_table(const std::string& path) {
-    std::ifstream file(path);
-    if (!file) throw input_error(path, "cannot be opened");
-    NumberTable table;
-    for (std::string line; std::getline(file, line);) {
-        const size_t colon = line.find(':');
-        if (colon == std::string::npos) continue;
-        std::istringstream numbers(line.substr(colon + 1));
-        for (double v; numbers >> v;) table[line.substr(0, colon)].push_back(v);
-    }
-    return table;
-}
-
-const std::vector<double>& numbers(const NumberTable& table, const std::string& key, size_t count,
-                                   const std::string& where) {
-    const auto found = table.find(key);
-    if (found == table.end() || found->second.size() != count)
-        throw input_error(where,
-                          fmt::format("\"{}\" is missing or has another length (expected {} numbers)", key, count));
-    return found->second;
-}
-
-Transform rotation_rows(const std::vector<double>& r) {
-    return {{r[0], r[3], r[6]}, {r[1], r[4], r[7]}, {r[2], r[5], r[8]}, {}};
-}
-
-Transform rigid(const NumberTable& table, const std::string& where) {
-    Transform t = rotation_rows(numbers(table, "R", 9, where));
-    const auto& move = numbers(table, "T", 3, where);
-    t.translation = {move[0], move[1], move[2]};
-    return t;
-}
-
-/// Focal length and centre of a projection 3 x 4, and where its camera is in the rectified frame of the first one,
-/// right, down, forward.
-Vec3d set_projection(PictureCamera& camera, const std::vector<double>& p, const std::string& where) {
-    if (!(p[0] > 0)) throw input_error(where, fmt::format("has no focal length (got {:g} pixels)", p[0]));
-    camera.focal_pixels = p[0];
-    camera.centre = Vec2{float(p[2] + 0.5), float(p[6] + 0.5)};  // KITTI's pixel centres are whole numbers
-    return {-(p[3] - p[2] * p[11]) / p[0], -(p[7] - p[6] * p[11]) / p[5], -p[11]};
-}
-
 std::vector<AugmentItem> object_items(const std::string& root) {
     std::vector<AugmentItem> items;
     for (const int number : {2, 3})
@@ -73,13 +26,19 @@ std::vector<AugmentItem> object_items(const std::string& root) {
             AugmentItem item;
             item.name = fmt::format("image_{}/{}", number, stem);
             item.picture = root + "/" + file.path;
-            item.depth = fmt::format("{}/depth_{}/{}.png", root, number, stem);
-            item.format.encoding = DepthInput::kitti16;
             item.rain = stem;  // both cameras of a pair
             try {
-                const auto p = numbers(read_table(calib), fmt::format("P{}", number), 12, calib);
+                const NumberTable table = read_number_table(calib);
+                const auto p = table_numbers(table, fmt::format("P{}", number), 12, calib);
                 const Vec3d place = set_projection(item.camera, p, calib);
                 item.camera.world_from_camera.translation = camera_from_opencv().vector(place);
+                const std::string depth = fmt::format("{}/depth_{}/{}.png", root, number, stem);
+                const std::string scan = fmt::format("{}/velodyne/{}.bin", root, stem);
+                Transform camera_from_lidar;
+                if (!fs::exists(depth) && fs::exists(scan))
+                    camera_from_lidar = translate(-place) * rotation_rows(table_numbers(table, "R0_rect", 9, calib)) *
+                                        rigid_rows(table_numbers(table, "Tr_velo_to_cam", 12, calib));
+                set_kitti_depth(item, {depth}, scan, camera_from_lidar);
             } catch (const Error& e) {
                 item.fault = e.what();
             }
@@ -142,14 +101,37 @@ Transform world_from_enu() {
     return {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}, {}};
 }
 
-void place_in_drive(AugmentItem& item, const std::string& date, const std::string& drive, const std::string& camera,
-                    const std::string& stem) {
+Transform rigid(const std::string& path) {
+    const NumberTable table = read_number_table(path);
+    Transform t = rotation_rows(table_numbers(table, "R", 9, path));
+    const auto& move = table_numbers(table, "T", 3, path);
+    t.translation = {move[0], move[1], move[2]};
+    return t;
+}
+
+/// Where the depth benchmark's archives put the depth of a drive: beside the raw data, or in folders of their own.
+std::vector<std::string> drive_depth(const std::string& root, const std::string& folder, const std::string& drive,
+                                     const std::string& camera, const std::string& stem) {
+    std::vector<std::string> paths;
+    for (const char* kind : {"groundtruth", "velodyne_raw"}) {
+        const std::string below = fmt::format("proj_depth/{}/image_{}/{}.png", kind, camera, stem);
+        paths.push_back(folder + "/" + below);
+        for (const char* split : {"train", "val"})
+            for (const char* archive : {"", "data_depth_annotated/", "data_depth_velodyne/"})
+                paths.push_back(fmt::format("{}/{}{}/{}/{}", root, archive, split, drive, below));
+    }
+    return paths;
+}
+
+/// Returns where the lidar is seen from the camera.
+Transform place_in_drive(AugmentItem& item, const std::string& date, const std::string& drive,
+                         const std::string& camera, const std::string& stem) {
     const std::string path = date + "/calib_cam_to_cam.txt";
-    const NumberTable table = read_table(path);
-    const Vec3d offset = set_projection(item.camera, numbers(table, "P_rect_" + camera, 12, path), path);
+    const NumberTable table = read_number_table(path);
+    const Vec3d offset = set_projection(item.camera, table_numbers(table, "P_rect_" + camera, 12, path), path);
     const std::string velo = date + "/calib_velo_to_cam.txt", imu = date + "/calib_imu_to_velo.txt";
-    const Transform rectified_from_imu = rotation_rows(numbers(table, "R_rect_00", 9, path)) *
-                                         rigid(read_table(velo), velo) * rigid(read_table(imu), imu);
+    const Transform rectified_from_velo = rotation_rows(table_numbers(table, "R_rect_00", 9, path)) * rigid(velo);
+    const Transform rectified_from_imu = rectified_from_velo * rigid(imu);
     const std::string folder = drive + "/oxts/data/", first = fmt::format("{:010}", 0);
     const double scale = std::cos(radians_from_degrees(read_latitude(folder + first + ".txt")));
     const CarPose start = read_oxts(folder + first + ".txt", scale), pose = read_oxts(folder + stem + ".txt", scale);
@@ -163,6 +145,7 @@ void place_in_drive(AugmentItem& item, const std::string& date, const std::strin
     if (frame >= times.size())
         throw input_error(drive + "/image_" + camera + "/timestamps.txt", fmt::format("has no line {}", frame + 1));
     item.camera.mid_exposure = times[frame] - times[0];
+    return translate(-offset) * rectified_from_velo;
 }
 
 std::vector<AugmentItem> drive_items(const std::string& root) {
@@ -175,11 +158,11 @@ std::vector<AugmentItem> drive_items(const std::string& root) {
             AugmentItem item;
             item.name = drive + "/image_" + camera + "/" + stem;
             item.picture = root + "/" + file.path;
-            item.depth = folder + "/proj_depth/groundtruth/image_" + camera + "/" + stem + ".png";
-            item.format.encoding = DepthInput::kitti16;
             item.rain = drive;
             try {
-                place_in_drive(item, root + "/" + date, folder, camera, stem);
+                const Transform camera_from_lidar = place_in_drive(item, root + "/" + date, folder, camera, stem);
+                set_kitti_depth(item, drive_depth(root, folder, drive, camera, stem),
+                                folder + "/velodyne_points/data/" + stem + ".bin", camera_from_lidar);
             } catch (const Error& e) {
                 item.fault = e.what();
             }
@@ -192,9 +175,13 @@ std::vector<AugmentItem> drive_items(const std::string& root) {
 
 std::vector<AugmentItem> kitti_items(const AugmentOptions& o) {
     std::vector<AugmentItem> items;
-    for (const std::string& root : {o.input, o.input + "/training"})
-        for (AugmentItem& item : object_items(root)) items.push_back(std::move(item));
-    for (AugmentItem& item : drive_items(o.input)) items.push_back(std::move(item));
+    const auto add = [&](std::vector<AugmentItem> more) {
+        for (AugmentItem& item : more) items.push_back(std::move(item));
+    };
+    for (const std::string& root : {o.input, o.input + "/training", o.input + "/testing"}) add(object_items(root));
+    add(drive_items(o.input));
+    for (const std::string& root : {o.input, o.input + "/dataset"}) add(kitti_odometry_items(root));
+    for (const std::string& root : {o.input, o.input + "/depth_selection"}) add(kitti_selection_items(root));
     return items;
 }
 
