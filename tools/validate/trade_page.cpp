@@ -15,8 +15,8 @@ namespace {
 
 constexpr int plot_width = 760, plot_height = 420, margin_left = 64, margin_bottom = 44, margin_top = 12,
               margin_right = 150;
-constexpr const char* colors[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd",
-                                  "#ff7f0e", "#17becf", "#8c564b", "#e377c2"};
+constexpr const char* colors[] = {"#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf",
+                                  "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22", "#111111", "#0b6b3a"};
 
 /// A logarithmic axis from the power of ten's part below the least value to that above the largest.
 struct Axis {
@@ -38,6 +38,15 @@ struct Axis {
         return result;
     }
 };
+
+/// Results with the number of samples that settings of other dials have: beside those of more and fewer they would all
+/// be in one place.
+TradeReport of_one_count(const TradeReport& report) {
+    TradeReport part = report;
+    const int count = report.options.value("spp", 0);
+    std::erase_if(part.results, [&](const TradeResult& r) { return r.samples != count; });
+    return part;
+}
 
 std::string plot(const TradeReport& report, const std::string& title, double (TradeResult::*value)() const) {
     Axis time, error;
@@ -115,6 +124,10 @@ std::string trade_page(const TradeReport& report) {
         report.reference_samples, report.reference_error);
     html += plot(report, "Error", &TradeResult::error);
     html += plot(report, "FLIP, as an eye sees it", &TradeResult::flip);
+    if (const TradeReport part = of_one_count(report); part.results.size() > 1) {
+        html += plot(part, fmt::format("Error of {} samples", part.results[0].samples), &TradeResult::error);
+        html += plot(part, fmt::format("FLIP of {} samples", part.results[0].samples), &TradeResult::flip);
+    }
     html += "<h2>Dials</h2><ul>";
     for (const TradeDial& dial : trade_dials())
         html += "<li><b>" + std::string(dial.name) + "</b>: " + html_escaped(dial.meaning) + "</li>";
