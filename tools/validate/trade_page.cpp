@@ -29,12 +29,16 @@ struct Axis {
         low /= 1.25, high *= 1.25;
     }
     double place(double v) const { return std::log(std::max(v, low) / low) / std::log(high / low); }
-    /// 1, 2 and 5 times the powers of ten within.
+    /// Round values within: 1, 2 and 5 times the powers of ten, or more digits where those are fewer than three.
     std::vector<double> ticks() const {
         std::vector<double> result;
-        for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10)
-            for (const double digit : {1.0, 2.0, 5.0})
-                if (digit * power >= low && digit * power <= high) result.push_back(digit * power);
+        for (const auto& digits : {std::vector<double>{1, 2, 5}, std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 7, 8}}) {
+            result.clear();
+            for (double power = std::pow(10.0, std::floor(std::log10(low))); power <= high; power *= 10)
+                for (const double digit : digits)
+                    if (digit * power >= low && digit * power <= high) result.push_back(digit * power);
+            if (result.size() >= 3) break;
+        }
         return result;
     }
 };
