@@ -92,7 +92,7 @@ TEST_CASE("leaves shelter by their mask and blended surfaces by their share") {
         CAPTURE(masked);
         CAPTURE(open.mean());
         // The inner 9.6 of 10 m hold a little more or less of a texel than a sixteenth.
-        CHECK(open.mean() == doctest::Approx(13.0 / 16).epsilon(0.02));
+        CHECK(open.mean() == doctest::Approx(13.0 / 16).scale(0).epsilon(0.02));
     }
 }
 
@@ -105,10 +105,10 @@ TEST_CASE("dry parts of a ray are those below the roof, from wherever it starts"
     CHECK(parts.up_to(10, counters).empty());
     const auto before = parts.up_to(18, counters);
     REQUIRE(before.size() == 1);
-    CHECK(before[0].begin == doctest::Approx(15).epsilon(0.02));
+    CHECK(before[0].begin == doctest::Approx(15).scale(0).epsilon(0.02));
     const auto all = parts.up_to(1e9f, counters);
     REQUIRE(all.size() == 1);
-    CHECK(all[0].end == doctest::Approx(25).epsilon(0.03));
+    CHECK(all[0].end == doctest::Approx(25).scale(0).epsilon(0.03));
     CHECK(counters[Feature::rain_shadow] > 0);
     DryParts above(shadow, {{-20, 5, 0.1f}, {1, 0, 0}});
     CHECK(above.up_to(1e9f, counters).empty());
@@ -118,7 +118,7 @@ TEST_CASE("dry parts of a ray are those below the roof, from wherever it starts"
     DryParts roofed_ground(shadow, {{0, 1, 20}, normalize(Vec3(0, -0.05f, -1)), 20});
     const auto to_ground = roofed_ground.up_to(24, counters);
     REQUIRE(to_ground.size() == 1);
-    CHECK(to_ground[0].begin == doctest::Approx(15).epsilon(0.02));
+    CHECK(to_ground[0].begin == doctest::Approx(15).scale(0).epsilon(0.02));
     CHECK(to_ground[0].end > 24);
     CHECK(roofed_ground.serves(24));
     CHECK(!roofed_ground.serves(40));
@@ -157,7 +157,7 @@ TEST_CASE("a roof takes from a ray the rain of its own length and leaves open wa
     const double saved = std::log(double(b.plane("transmittance_100.G")[left] / a.plane("transmittance_100.G")[left]));
     CAPTURE(extinction);
     CAPTURE(saved);
-    CHECK(saved == doctest::Approx(extinction * (to - from) * way).epsilon(0.04));  // steps of 3 % of the way
+    CHECK(saved == doctest::Approx(extinction * (to - from) * way).scale(0).epsilon(0.04));  // steps of 3 % of the way
     CHECK(b.plane("transmittance_100.G")[right] == a.plane("transmittance_100.G")[right]);
     CHECK(b.plane("background.G")[right] > 0);
 }

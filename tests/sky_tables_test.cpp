@@ -94,7 +94,8 @@ TEST_CASE("light scattered once agrees with quadrature along the ray") {
         for (const int band : {2, 6}) {
             const double expected = single_scattering(tables.atmosphere, mu, mu_s, nu, band);
             CAPTURE(i);
-            CHECK(found[band] == doctest::Approx(expected).epsilon(0.01));
+            // 3 %: steps of the small tables, 2.4 % where the sun is below the horizon.
+            CHECK(found[band] == doctest::Approx(expected).scale(0).epsilon(0.03));
         }
     });
 }
@@ -131,8 +132,8 @@ TEST_CASE("light scattered once in Cycles' atmosphere is that of Cycles' Nishita
                                luminance_from_bands(scattered_radiance(tables, r, mu, std::sin(sun), nu));
             }
         CAPTURE(s.elevation);
-        CHECK(zenith * spectrum == doctest::Approx(s.zenith).epsilon(0.05));
-        CHECK(illuminance * spectrum == doctest::Approx(s.illuminance).epsilon(0.05));
+        CHECK(zenith * spectrum == doctest::Approx(s.zenith).scale(0).epsilon(0.05));
+        CHECK(illuminance * spectrum == doctest::Approx(s.illuminance).scale(0).epsilon(0.05));
     }
 }
 
@@ -160,8 +161,9 @@ TEST_CASE("an atmosphere that absorbs nothing sends back all light that meets it
     const double met = luminance_from_bands(Bands(1)) * pi_d * atmosphere.top_radius * atmosphere.top_radius - passed;
     const double area = 4 * pi_d * atmosphere.top_radius * atmosphere.top_radius;
     MESSAGE("sent back: " << mean / (met / area));
-    CHECK(mean ==
-          doctest::Approx(met / area).epsilon(0.03));  // quadrature, and the peak's shape after many scatterings
+    CHECK(
+        mean ==
+        doctest::Approx(met / area).scale(0).epsilon(0.03));  // quadrature, and the peak's shape after many scatterings
 }
 
 TEST_CASE("the sky is the same on both sides of the sun") {
@@ -202,12 +204,12 @@ TEST_CASE("no radiance is negative or not finite, at any height, in clean air an
 TEST_CASE("exponentials of bands are exact to single precision") {
     for (double x = 0; x < 80; x += 0.37) {
         const Bands e = exp_minus(Bands(float(x)));
-        CHECK(e[7] == doctest::Approx(std::exp(-double(float(x)))).epsilon(4e-7));
+        CHECK(e[7] == doctest::Approx(std::exp(-double(float(x)))).scale(0).epsilon(4e-7));
         const double mean = x > 0 ? -std::expm1(-double(float(x))) / float(x) : 1;
-        CHECK(mean_transmittance(Bands(float(x)), e)[3] == doctest::Approx(mean).epsilon(4e-6));
+        CHECK(mean_transmittance(Bands(float(x)), e)[3] == doctest::Approx(mean).scale(0).epsilon(4e-6));
     }
     const Bands small = mean_transmittance(Bands(1e-6f), exp_minus(Bands(1e-6f)));
-    CHECK(small[0] == doctest::Approx(1 - 0.5e-6).epsilon(1e-7));
+    CHECK(small[0] == doctest::Approx(1 - 0.5e-6).scale(0).epsilon(1e-7));
 }
 
 TEST_CASE("tables have the same bytes for any number of threads") {
