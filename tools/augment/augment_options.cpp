@@ -40,8 +40,8 @@ void add_augment_options(CLI::App& command, AugmentOptions& o) {
         .add_option(
             "--exposure", r.exposure,
             "EV at ISO 100 that the pictures were taken at; auto: what an EXR file says, else such that a day's sky "
-            "has "
-            "4000 cd/m2, a day's street without sky 1300, a night's 1 (night: the sky below 10 % of white and darker "
+            "has 4000 cd/m2, a day's street without sky 1300, a night's 1 (night: the sky below 10 % of white and "
+            "darker "
             "than the street, or a picture without sky below 5 %). It decides over cd/m2 alone, so only where "
             "--environment brings light of its own")
         ->capture_default_str()

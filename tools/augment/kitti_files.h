@@ -28,9 +28,8 @@ Transform rigid_rows(const std::vector<double>& r);
 /// right, down, forward.
 Vec3d set_projection(PictureCamera& camera, const std::vector<double>& p, const std::string& where);
 
-/// Depth from the first of `pictures` (kitti16) that is there, else from the file of points `scan`, whose place is seen
-/// from the item's camera. Where neither is there, the first picture,
-/// which will be missed.
+/// Depth from the first of `pictures` (kitti16) that is there, else from the points of the file `scan`. Where neither
+/// is there, the first picture, which will be missed.
 void set_kitti_depth(AugmentItem& item, const std::vector<std::string>& pictures, const std::string& scan,
                      const Transform& camera_from_lidar);
 

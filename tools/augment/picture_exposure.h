@@ -10,7 +10,8 @@ namespace pluvia {
 
 struct ExposureEstimate {
     double ev100;
-    /// "sky by day", "surfaces by day" or "surfaces by night": what was taken to have a luminance that is known.
+    /// What was taken to have a luminance that is known: "sky by day", "surfaces by day", "surfaces by night" or, of a
+    /// black picture, "nothing".
     std::string by;
 };
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <ATen/Parallel.h>
-#include <ctime>
 #include <malloc.h>
+#include <ctime>
 #include <thread>
 
 namespace pluvia {
@@ -45,8 +45,10 @@ std::shared_ptr<const RainModel> load_model(const std::string& path, const std::
     model->config = model_config(*file);
     const auto stored = [&](const char* prefix) { return stored_parameters(file, prefix, model->device); };
     model->unet.emplace(stored(unet_prefix), model->config.unet);
-    if (model->config.first_stage) model->first_stage.emplace(stored(first_stage_prefix), *model->config.first_stage);
-    if (!model->config.first_stage) keep_freed_memory();
+    if (model->config.first_stage)
+        model->first_stage.emplace(stored(first_stage_prefix), *model->config.first_stage);
+    else
+        keep_freed_memory();
     if (model->config.guide) model->guide.emplace(stored(guide_prefix), *model->config.guide);
     return model;
 }
