@@ -158,6 +158,17 @@ void StreakBins::find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>
     }
 }
 
+void StreakBins::find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
+                            std::vector<uint64_t>& masks) const {
+    masks.clear();
+    for (const uint32_t index : candidates) {
+        const StreakFootprint footprint = footprints_[index];
+        uint64_t mask = 0;
+        for (size_t i = 0; i < positions.size(); ++i) mask |= uint64_t(footprint.may_cover(positions[i])) << i;
+        masks.push_back(mask);
+    }
+}
+
 void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
                std::vector<StreakHit>& hits) {
     hits.clear();

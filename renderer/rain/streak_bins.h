@@ -52,6 +52,11 @@ public:
     /// pixel then share the search.
     void find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>& found) const;
 
+    /// Which of the candidates rays through up to 64 positions on the picture may meet: bit i of masks[k] is for
+    /// candidate k and position i. Replaces masks.
+    void find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
+                    std::vector<uint64_t>& masks) const;
+
 private:
     std::vector<Streak> streaks_;
     std::vector<StreakFootprint> footprints_;
