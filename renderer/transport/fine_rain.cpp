@@ -126,9 +126,9 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
         const Sampler of_streak = streak_sampler(hit, sampler);
         if (!paper && shows_picture(hit, of_streak)) {
             // What the light may be worth is known here before it is sampled, but not which lamp the drop shows.
+            // Lamps expected to bring more than that cost more time than the noise they save is worth.
             const float brightness = std::max(segment.background_luminance, luminance(veil.light[size_t(slice)]));
-            const float margin = tracer_->lights().has_local() ? 4 : 1;
-            const float most = worth(margin * hit.covered.fraction() * brightness, segment, settings_.streak_roulette);
+            const float most = worth(hit.covered.fraction() * brightness, segment, settings_.streak_roulette);
             if (!(most >= 1) && of_streak.get_1d(Draw::streak_choice) >= most) {
                 counters.count(Feature::streak_hit);
                 scratch.light.push_back(Rgb(0));
