@@ -14,10 +14,10 @@ namespace pluvia {
 
 /// A streak as it lies on the picture: every ray that can meet the drop during the exposure has its pixel position
 /// within radius of the line from (x, y) to (x + dx, y + dy). Pixels.
-struct StreakFootprint {
+struct alignas(32) StreakFootprint {
     float x, y, dx, dy;
     float inverse_length_squared;  // of (dx, dy); 0 for a point
-    float radius_squared;
+    float radius;
     float nearest_depth;  // metres
 
     float distance_squared(Vec2 pixel) const {
@@ -26,7 +26,9 @@ struct StreakFootprint {
         const float ex = px - s * dx, ey = py - s * dy;
         return ex * ex + ey * ey;
     }
-    bool may_cover(Vec2 pixel) const { return distance_squared(pixel) <= radius_squared; }
+    bool may_cover(Vec2 pixel, float margin = 0) const {
+        return distance_squared(pixel) <= (radius + margin) * (radius + margin);
+    }
 };
 
 class StreakBins {
