@@ -156,6 +156,12 @@ void StreakBins::find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>
     }
 }
 
+std::span<const uint32_t> StreakBins::before_end(std::span<const uint32_t> candidates, const Ray& ray) const {
+    const auto end = std::ranges::upper_bound(candidates, farthest(ray), {},
+                                              [&](uint32_t index) { return footprints_[index].nearest_depth; });
+    return candidates.first(size_t(end - candidates.begin()));
+}
+
 void StreakBins::find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
                             std::vector<uint64_t>& masks) const {
     masks.clear();
@@ -167,25 +173,30 @@ void StreakBins::find_masks(std::span<const uint32_t> candidates, std::span<cons
     }
 }
 
-void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
-               std::vector<StreakHit>& hits) {
-    hits.clear();
+std::optional<StreakHit> find_hit(const StreakBins& bins, uint32_t streak, const Ray& ray) {
+    const Streak& s = bins.streaks()[streak];
+    const std::optional<Covered> covered = covered_interval(s, ray, bins.exposure_time());
+    if (!covered || covered->distance >= ray.t_max) return {};
+    const float depth = covered->distance * ray.direction.z;
+    return StreakHit{streak, *covered, 2 * s.radius * bins.focal_pixels() / depth};
+}
+
+void sort_hits(const StreakBins& bins, std::vector<StreakHit>& hits) {
     const std::span<const Streak> streaks = bins.streaks();
-    const std::span<const StreakFootprint> footprints = bins.footprints();
-    // The ray's point beside a drop's centre is less than a radius from it, so the depths differ by less than that.
-    const float farthest = ray.t_max * ray.direction.z + bins.largest_radius();
-    for (const uint32_t index : candidates) {
-        if (footprints[index].nearest_depth > farthest) break;
-        if (!footprints[index].may_cover(pixel)) continue;
-        const std::optional<Covered> covered = covered_interval(streaks[index], ray, bins.exposure_time());
-        if (!covered || covered->distance >= ray.t_max) continue;
-        const float depth = covered->distance * ray.direction.z;
-        hits.push_back({index, *covered, 2 * streaks[index].radius * bins.focal_pixels() / depth});
-    }
     std::sort(hits.begin(), hits.end(), [&](const StreakHit& a, const StreakHit& b) {
         return a.covered.distance != b.covered.distance ? a.covered.distance < b.covered.distance
                                                         : streaks[a.streak].key < streaks[b.streak].key;
     });
+}
+
+void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
+               std::vector<StreakHit>& hits) {
+    hits.clear();
+    for (const uint32_t index : bins.before_end(candidates, ray)) {
+        if (!bins.footprints()[index].may_cover(pixel)) continue;
+        if (const auto hit = find_hit(bins, index, ray)) hits.push_back(*hit);
+    }
+    sort_hits(bins, hits);
 }
 
 }  // namespace pluvia

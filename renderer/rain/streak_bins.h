@@ -43,7 +43,9 @@ public:
     std::span<const StreakFootprint> footprints() const { return footprints_; }
     float exposure_time() const { return exposure_time_; }
     float focal_pixels() const { return focal_pixels_; }
-    float largest_radius() const { return largest_radius_; }
+    /// Greatest nearest_depth of a streak that may cover the ray before its end: its point beside a drop's centre is
+    /// less than a radius from it, so the depths differ by less than that.
+    float farthest(const Ray& ray) const { return ray.t_max * ray.direction.z + largest_radius_; }
     double shutter_open() const { return shutter_open_; }  // seconds of the sequence
     Vec3 world_vector(Vec3 in_view) const { return right_ * in_view.x + up_ * in_view.y + forward_ * in_view.z; }
 
@@ -54,6 +56,8 @@ public:
     /// pixel then share the search.
     void find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>& found) const;
 
+    /// Those of the candidates, in the order of either search, that may cover the ray before its end.
+    std::span<const uint32_t> before_end(std::span<const uint32_t> candidates, const Ray& ray) const;
     /// Which of the candidates rays through up to 64 positions on the picture may meet: bit i of masks[k] is for
     /// candidate k and position i. Replaces masks.
     void find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
@@ -75,6 +79,11 @@ struct StreakHit {
     Covered covered;
     float width;  // of the drop in pixels, at the view depth where it covers the ray
 };
+
+/// How a streak covers the ray nearer than ray.t_max, if it does; for what find_masks has found.
+std::optional<StreakHit> find_hit(const StreakBins& bins, uint32_t streak, const Ray& ray);
+/// From front to back (ties by key).
+void sort_hits(const StreakBins& bins, std::vector<StreakHit>& hits);
 
 /// Replaces hits by all streaks that cover the ray nearer than ray.t_max, from front to back (ties by key).
 /// pixel: the position on the picture that the ray belongs to. ray: view coordinates, from a point of the lens (the

@@ -123,6 +123,11 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
         const int slice = veil.slices[place];
         std::copy_n(&veil.passed[place * count], count, &scratch.transmissions[k * count]);
         if (medium_) std::copy_n(&veil.before[place * count], count, &scratch.veil[k * count]);
+        if (!paper && hit.width <= 1) {
+            counters.count(Feature::streak_hit);
+            scratch.light.push_back(veil.light[size_t(slice)]);
+            continue;
+        }
         const Sampler of_streak = streak_sampler(hit, sampler);
         if (!paper && shows_picture(hit, of_streak)) {
             // What the light may be worth is known here before it is sampled, but not which lamp the drop shows.

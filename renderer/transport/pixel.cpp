@@ -3,6 +3,7 @@
 #include "renderer/core/sampling.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace pluvia {
@@ -81,6 +82,12 @@ void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch) {
     if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
 }
 
+/// Calls visit(i) for each bit i that is set, in rising order.
+template <class Visit>
+static void for_each_bit(uint64_t bits, const Visit& visit) {
+    for (; bits; bits &= bits - 1) visit(size_t(std::countr_zero(bits)));
+}
+
 /// Samples of a picture's pixel, which is the same for all of them but for the streaks that they meet.
 static void add_picture_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch,
                                 Counters& counters) {
@@ -95,6 +102,7 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
     seen = {Vec3(), normalize(frame.view.view_direction(centre))};
     seen.t_max = picture.along(x, y, seen).distance;
     segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
+    segment.candidates = frame.bins->before_end(scratch.candidates, seen);
     frame.rain->begin_pixel(x, y, segment, scratch.veil);
     const auto samples = uint64_t(end - begin);
     counters.count(Feature::camera_path, samples);
@@ -110,28 +118,32 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
         };
         sampler(0).get_2d(Draw::pixel, some);
         for (Vec2& position : some) position = {float(x) + position.x, float(y) + position.y};
-        frame.bins->find_masks(scratch.candidates, some, scratch.masks);
-        for (size_t i = 0; i < some.size(); ++i) {
-            scratch.touching.clear();
-            for (size_t k = 0; k < scratch.masks.size(); ++k)
-                if (scratch.masks[k] >> i & 1) scratch.touching.push_back(scratch.candidates[k]);
-            scratch.streaks.hits.clear();
-            if (!scratch.touching.empty()) {
-                segment.pixel = some[i];
-                seen =
-                    view_ray(frame.view, some[i], frame.view.lens_radius > 0 ? sampler(i).get_2d(Draw::lens) : Vec2());
-                seen.t_max = picture.along(x, y, seen).distance;
-                find_hits(*frame.bins, scratch.touching, some[i], seen, scratch.streaks.hits);
-                if (frame.rain->needs_ray(scratch.streaks.hits))
-                    segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
-            }
-            if (scratch.streaks.hits.empty()) {
-                ++untouched;
-                continue;
-            }
+        frame.bins->find_masks(segment.candidates, some, scratch.masks);
+        uint64_t touched = 0;
+        for (const uint64_t mask : scratch.masks) touched |= mask;
+        for_each_bit(touched, [&](size_t i) {
+            Ray& ray = scratch.rays[i] =
+                view_ray(frame.view, some[i], frame.view.lens_radius > 0 ? sampler(i).get_2d(Draw::lens) : Vec2());
+            ray.t_max = picture.along(x, y, ray).distance;
+            scratch.hits[i].clear();
+        });
+        for (size_t k = 0; k < scratch.masks.size(); ++k)
+            for_each_bit(scratch.masks[k], [&](size_t i) {
+                const auto hit = find_hit(*frame.bins, segment.candidates[k], scratch.rays[i]);
+                if (hit) scratch.hits[i].push_back(*hit);
+            });
+        untouched += int(some.size());
+        for_each_bit(touched, [&](size_t i) {
+            if (scratch.hits[i].empty()) return;
+            --untouched;
+            std::swap(scratch.streaks.hits, scratch.hits[i]);
+            sort_hits(*frame.bins, scratch.streaks.hits);
+            segment.pixel = some[i], seen = scratch.rays[i];
+            if (frame.rain->needs_ray(scratch.streaks.hits))
+                segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
             frame.rain->evaluate(segment, scratch.veil, sampler(i), scratch.rain, scratch.streaks, counters);
             add_rain(background, 1, scratch.rain, sums, counters);
-        }
+        });
     }
     add_rain(background, untouched, scratch.veil.untouched, sums, counters);
 }

@@ -58,8 +58,9 @@ struct PixelScratch {
     PixelVeil veil;
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
-    std::vector<uint32_t> touching;    // of them, those near a sample
     std::vector<uint64_t> masks;       // of samples that a candidate may touch
+    std::array<Ray, 64> rays;          // of some samples
+    std::array<std::vector<StreakHit>, 64> hits;
     std::vector<float> values;
     std::vector<uint32_t> ids;
 };

@@ -138,8 +138,10 @@ PictureInput read_picture(const AugmentItem& item, const AugmentSettings& settin
         const ExposureEstimate estimate = estimate_exposure(p, picture.source.z);
         picture.ev100 = estimate.ev100, picture.exposed_by = estimate.by;
     }
-    if (!in_nits)
-        for (Rgb& c : picture.source.radiance.pixels) c *= 1 / exposure_scale(picture.ev100);
+    if (!in_nits) {
+        const float white = 1 / exposure_scale(picture.ev100);
+        for (Rgb& c : picture.source.radiance.pixels) c *= white;
+    }
     return picture;
 }
 
