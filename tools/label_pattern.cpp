@@ -50,10 +50,15 @@ struct Group {
     size_t length() const { return before + last; }
 };
 
-bool refers_back(const std::string& pattern) {
-    for (size_t i = 0; i + 1 < pattern.size(); ++i)
-        if (pattern[i] == '\\' && pattern[++i] >= '1' && pattern[i] <= '9') return true;
-    return false;
+/// What costs more than a look at each character: "\1", "(?=" or "(?!"; empty without.
+std::string costly_part(const std::string& pattern) {
+    for (size_t i = 0; i + 1 < pattern.size(); ++i) {
+        const bool escapes = pattern[i] == '\\';
+        if (escapes && pattern[i + 1] >= '1' && pattern[i + 1] <= '9') return pattern.substr(i, 2);
+        if (pattern.compare(i, 3, "(?=") == 0 || pattern.compare(i, 3, "(?!") == 0) return pattern.substr(i, 3);
+        i += escapes;
+    }
+    return "";
 }
 
 }  // namespace
@@ -94,9 +99,11 @@ std::regex compile_label_pattern(const std::string& pattern, const std::string& 
         throw usage_error(where, fmt::format("nodes is too long (got {} characters with repetitions written out, "
                                              "expected at most {})",
                                              length, longest));
-    if (refers_back(pattern))
-        throw usage_error(
-            where, fmt::format("nodes refers back to a group (got \"{}\", expected none of \\1 to \\9)", pattern));
+    const std::string costly = costly_part(pattern);
+    if (!costly.empty())
+        throw usage_error(where, fmt::format("nodes refers back to a group or looks ahead (got \"{}\" in \"{}\", "
+                                             "expected neither)",
+                                             costly, pattern));
     try {
         // The library's usual matcher calls itself for each character of a path, until the stack is used up, and tries
         // each way to match "(a*)*". This flag of libstdc++ has all ways followed at once; it forbids to refer back.
