@@ -291,7 +291,7 @@ TEST_CASE("sky tells the light in numbers, and its panorama gives the same light
     CHECK(j["moon"]["lit_share"].get<double>() <= 1);
     CHECK(j["color_temperature_kelvin"]["direct"].get<double>() < j["color_temperature_kelvin"]["total"].get<double>());
     CHECK(j["color_temperature_kelvin"]["total"].get<double>() < j["color_temperature_kelvin"]["sky"].get<double>());
-    CHECK(Environment(read_radiance(exr)).horizontal_illuminance() == doctest::Approx(total).epsilon(0.005));
+    CHECK(Environment(read_radiance(exr)).horizontal_illuminance() == doctest::Approx(total).epsilon(0.005).scale(0));
     const Json overcast = Json::parse(run_program("sky --sun-elevation 30 --weather overcast --json").out);
     CHECK(overcast["illuminance_direct_lux"] == 0);
     CHECK(run_program("sky --hour 15 --weather fair").out.find("lux") != std::string::npos);

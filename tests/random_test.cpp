@@ -36,6 +36,19 @@ TEST_CASE("the numbers of a vertex are the same asked together or one by one") {
         }
 }
 
+TEST_CASE("the numbers of a pixel's samples are the same asked together or one by one") {
+    for (const Draw draw : {Draw::pixel, Draw::lens})
+        for (const uint32_t first : {0u, 5u, 64u, 4294967290u}) {
+            std::array<Vec2, 37> together;
+            Sampler(9, 1023, 511, first).get_2d(draw, together);
+            for (uint32_t i = 0; i < together.size(); ++i) {
+                const Vec2 alone = Sampler(9, 1023, 511, first + i).get_2d(draw);
+                CHECK(together[i].x == alone.x);
+                CHECK(together[i].y == alone.y);
+            }
+        }
+}
+
 TEST_CASE("every 256 samples in a row fill each cell of every grid of 256 once, in every draw") {
     for (const Draw draw : all_draws)
         for (uint32_t block = 0; block < 3; ++block)

@@ -114,7 +114,7 @@ TEST_CASE("depth is exact along the view axis and infinite in the sky") {
             }
             const double dx = (x + 0.5 - 8) / 10, dy = (y + 0.5 - 8) / 10;
             CHECK(z == doctest::Approx(7).epsilon(1e-6));
-            CHECK(distance == doctest::Approx(7 * std::sqrt(1 + dx * dx + dy * dy)).epsilon(1e-6));
+            CHECK(distance == doctest::Approx(7 * std::sqrt(1 + dx * dx + dy * dy)).epsilon(1e-6).scale(0));
         }
 }
 
@@ -138,11 +138,12 @@ TEST_CASE("a scene a million metres away renders the same within noise") {
         noise += std::pow(a.plane("background.G")[i] - b.plane("background.G")[i], 2);
         difference += std::pow(a.plane("background.G")[i] - far.plane("background.G")[i], 2);
         // The ground is flat: depths differ by the rounding of doubles at a million metres, 1e-10 m, and of float.
-        if (std::isfinite(a.plane("Z")[i])) CHECK(far.plane("Z")[i] == doctest::Approx(a.plane("Z")[i]).epsilon(1e-5));
+        if (std::isfinite(a.plane("Z")[i]))
+            CHECK(far.plane("Z")[i] == doctest::Approx(a.plane("Z")[i]).epsilon(1e-5).scale(0));
     }
     CHECK(difference < 1.3 * noise);  // two sums of 2048 squares: 3 % sigma each
     CHECK(difference > 0);
-    CHECK(far.mean("background.G") == doctest::Approx(a.mean("background.G")).epsilon(5e-3));
+    CHECK(far.mean("background.G") == doctest::Approx(a.mean("background.G")).epsilon(5e-3).scale(0));
 }
 
 TEST_CASE("twice the exposure leaves the summed coverage of streaks as it is") {
@@ -183,7 +184,8 @@ TEST_CASE("by night rain is seen by the light of lamps alone") {
     const Picture clear = render_picture(scene, Environment(), view, paper);
     CHECK(clear.mean("inscatter_100.G") == 0);
     for (size_t i = 0; i < clear.plane("Z").size(); ++i)
-        CHECK(clear.plane("transmittance_100.G")[i] == doctest::Approx(1 - clear.plane("rain_100.A")[i]).epsilon(1e-6));
+        CHECK(clear.plane("transmittance_100.G")[i] ==
+              doctest::Approx(1 - clear.plane("rain_100.A")[i]).epsilon(1e-6).scale(0));
 }
 
 TEST_CASE("under a roof there is no rain") {
@@ -214,7 +216,7 @@ TEST_CASE("a lens blurs what is out of focus and keeps its light") {
                 std::max(difference, double(std::abs(p.plane("background.G")[i] - pinhole.plane("background.G")[i])));
         CAPTURE(focus);
         CHECK((difference < 0.2) == (focus == 2.0));  // in focus only the sampled edges differ
-        CHECK(p.mean("background.G") == doctest::Approx(pinhole.mean("background.G")).epsilon(0.01));
+        CHECK(p.mean("background.G") == doctest::Approx(pinhole.mean("background.G")).epsilon(0.01).scale(0));
     }
 }
 

@@ -55,7 +55,7 @@ struct Counters {
     uint64_t rays = 0;             // closest-hit and shadow queries
     uint64_t invalid_samples = 0;  // radiance that was not finite, left out of the picture and reported
 
-    void count(Feature feature) { ++calls[std::size_t(feature)]; }
+    void count(Feature feature, uint64_t times = 1) { calls[std::size_t(feature)] += times; }
     uint64_t operator[](Feature feature) const { return calls[std::size_t(feature)]; }
     Counters& operator+=(const Counters& other) {
         for (std::size_t i = 0; i < calls.size(); ++i) calls[i] += other.calls[i];

@@ -66,6 +66,12 @@ Vec2 Sampler::get_2d(Draw draw, uint32_t bounce) const {
     return u;
 }
 
+void Sampler::get_2d(Draw draw, std::span<Vec2> of_samples) const {
+    const uint64_t key = hash_key(pixel_key_, 0);
+    for (uint32_t i = 0; i < of_samples.size(); ++i)
+        sobol_pair(reverse_bits(sample_ + i), key, uint32_t(draw), of_samples[i].x, of_samples[i].y);
+}
+
 VertexNumbers Sampler::vertex(uint32_t bounce) const {
     VertexNumbers numbers;
     const uint32_t reversed_sample = reverse_bits(sample_);

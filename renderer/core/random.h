@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace pluvia {
 
@@ -80,6 +81,9 @@ public:
     Vec2 get_2d(Draw draw, uint32_t bounce = 0) const;
     /// The same numbers as get_2d for all of the first draws, at about the price of two.
     VertexNumbers vertex(uint32_t bounce) const;
+    /// The same numbers as get_2d(draw) for camera samples of a pixel, the given one and those that follow it, at a
+    /// fraction of the price of each.
+    void get_2d(Draw draw, std::span<Vec2> of_samples) const;
 
     /// A key to be hashed further. It differs between all samples, draws and bounces but is not mixed.
     uint64_t key(Draw draw, uint32_t bounce = 0) const {

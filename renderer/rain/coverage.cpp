@@ -17,9 +17,9 @@ std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, fl
         if (length_squared(a + b * (exposure / 2)) > radius * radius * d_squared) return {};
     } else {
         const double volume = dot(d, cross(w, v));  // over |b|: how far the path misses the ray
-        const double inside = radius * radius - volume * volume / b_squared;
+        const double of_b = 1 / b_squared, inside = radius * radius - volume * volume * of_b;
         if (inside <= 0) return {};
-        const double centre = -dot(a, b) / b_squared, half = std::sqrt(inside * d_squared / b_squared);
+        const double centre = -dot(a, b) * of_b, half = std::sqrt(inside * d_squared * of_b);
         begin = std::max(begin, centre - half);
         end = std::min(end, centre + half);
         if (begin >= end) return {};

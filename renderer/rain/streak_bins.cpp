@@ -49,7 +49,7 @@ StreakFootprint footprint_of(const Outline& outline, float depth) {
             float(dx),
             float(dy),
             length_squared > 1e-6 ? float(1 / length_squared) : 0.0f,
-            float(radius * radius),
+            float(radius),
             depth};
 }
 
@@ -152,9 +152,18 @@ void StreakBins::find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>
     const Vec2 centre{float(pixel_x) + 0.5f, float(pixel_y) + 0.5f};
     constexpr float half_diagonal = 0.7072f;
     for (const uint32_t index : candidates(pixel_x, pixel_y)) {
-        const StreakFootprint& footprint = footprints_[index];
-        const float reach = std::sqrt(footprint.radius_squared) + half_diagonal;
-        if (footprint.distance_squared(centre) <= reach * reach) found.push_back(index);
+        if (footprints_[index].may_cover(centre, half_diagonal)) found.push_back(index);
+    }
+}
+
+void StreakBins::find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
+                            std::vector<uint64_t>& masks) const {
+    masks.clear();
+    for (const uint32_t index : candidates) {
+        const StreakFootprint footprint = footprints_[index];
+        uint64_t mask = 0;
+        for (size_t i = 0; i < positions.size(); ++i) mask |= uint64_t(footprint.may_cover(positions[i])) << i;
+        masks.push_back(mask);
     }
 }
 

@@ -14,10 +14,10 @@ namespace pluvia {
 
 /// A streak as it lies on the picture: every ray that can meet the drop during the exposure has its pixel position
 /// within radius of the line from (x, y) to (x + dx, y + dy). Pixels.
-struct StreakFootprint {
+struct alignas(32) StreakFootprint {
     float x, y, dx, dy;
     float inverse_length_squared;  // of (dx, dy); 0 for a point
-    float radius_squared;
+    float radius;
     float nearest_depth;  // metres
 
     float distance_squared(Vec2 pixel) const {
@@ -26,7 +26,9 @@ struct StreakFootprint {
         const float ex = px - s * dx, ey = py - s * dy;
         return ex * ex + ey * ey;
     }
-    bool may_cover(Vec2 pixel) const { return distance_squared(pixel) <= radius_squared; }
+    bool may_cover(Vec2 pixel, float margin = 0) const {
+        return distance_squared(pixel) <= (radius + margin) * (radius + margin);
+    }
 };
 
 class StreakBins {
@@ -51,6 +53,11 @@ public:
     /// Replaces found by those of them that rays through this very pixel may meet, in the same order: all samples of a
     /// pixel then share the search.
     void find_candidates(int pixel_x, int pixel_y, std::vector<uint32_t>& found) const;
+
+    /// Which of the candidates rays through up to 64 positions on the picture may meet: bit i of masks[k] is for
+    /// candidate k and position i. Replaces masks.
+    void find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
+                    std::vector<uint64_t>& masks) const;
 
 private:
     std::vector<Streak> streaks_;

@@ -21,13 +21,11 @@ double way_to(const Bounds& box, Vec3d origin, Vec3d direction) {
 
 }  // namespace
 
-Ray view_ray(const View& view, Vec2 pixel, Vec2 lens) {
-    const Vec3 through_centre = view.view_direction(pixel);
-    if (view.lens_radius == 0) return {Vec3(), normalize(through_centre)};
+Ray lens_ray(const View& view, Vec2 pixel, Vec2 lens) {
     const Vec2 d = sample_disk(lens);
     const Vec3 origin(float(view.lens_radius) * d.x, float(view.lens_radius) * d.y, 0);
     // Both ends of the ray scaled by 1 / focus distance, so that focus at infinity is an ordinary case.
-    return {origin, normalize(through_centre - origin / float(view.focus_distance))};
+    return {origin, normalize(view.view_direction(pixel) - origin / float(view.focus_distance))};
 }
 
 Bounds far_bounds(const Scene& scene, const View& view) {

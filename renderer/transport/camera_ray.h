@@ -7,9 +7,13 @@
 
 namespace pluvia {
 
+/// The camera ray of a lens that is no pinhole, as view_ray.
+Ray lens_ray(const View& view, Vec2 pixel, Vec2 lens);
 /// One camera ray in view coordinates: through a point of the lens and the point in focus behind a pixel position.
 /// lens: uniform in [0, 1)^2; unused by a pinhole.
-Ray view_ray(const View& view, Vec2 pixel, Vec2 lens);
+inline Ray view_ray(const View& view, Vec2 pixel, Vec2 lens) {
+    return view.lens_radius > 0 ? lens_ray(view, pixel, lens) : Ray{Vec3(), normalize(view.view_direction(pixel))};
+}
 
 /// The scene's box with a margin, where the camera is farther from it than it is wide; else an empty one.
 Bounds far_bounds(const Scene& scene, const View& view);

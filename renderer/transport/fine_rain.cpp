@@ -20,14 +20,22 @@ void RainStage::begin_pixel(int x, int y, const CameraSegment& segment, PixelVei
     const float cosine = segment.view_ray.direction.z;
     const size_t count = intensities_.size();
     veil.x = x, veil.y = y;
-    const int last = veil.last = DropLight::slice_of(segment.view_ray.t_max * cosine);
-    drop_light_->find(x, y, last, veil.light);
+    veil.last = DropLight::slice_of(segment.view_ray.t_max * cosine);
+    drop_light_->find(x, y, veil.last, veil.light);
     veil.untouched.assign(count, {});
-    if (!medium_) return;
+    veil.streaks = segment.candidates;
+    if (medium_) find_medium(segment, veil);
+    find_before_streaks(cosine, veil);
+}
+
+/// The medium along the ray through the pixel's centre.
+void RainStage::find_medium(const CameraSegment& segment, PixelVeil& veil) const {
+    const float cosine = segment.view_ray.direction.z;
+    const size_t count = intensities_.size();
     Ray ray = segment.ray;
     ray.t_max = segment.view_ray.t_max;
     veil.in_rain = medium_->segment(ray, cosine);
-    const size_t size = size_t(last + 1) * count;
+    const size_t size = size_t(veil.last + 1) * count;
     veil.transmissions.assign(size, 1.0f);
     veil.inscatter.assign(size, Rgb(0));
     if (veil.in_rain.empty()) return;
@@ -43,11 +51,11 @@ void RainStage::begin_pixel(int x, int y, const CameraSegment& segment, PixelVei
         const float end = veil.untouched[i].transmission;
         float here = 1;
         Rgb sum;
-        for (int k = 0; k <= last; ++k) {
+        for (int k = 0; k <= veil.last; ++k) {
             veil.transmissions[size_t(k) * count + i] = here;
             veil.inscatter[size_t(k) * count + i] = sum;
             float next = end;
-            if (k < last) {
+            if (k < veil.last) {
                 const float depth = (slice_depths_[size_t(k) * count + i] - depths[i]) / cosine;
                 next = std::clamp(std::exp(-depth), end, here);
             }
@@ -58,10 +66,29 @@ void RainStage::begin_pixel(int x, int y, const CameraSegment& segment, PixelVei
     }
 }
 
-/// In-scattered light up to where the medium lets pass this much, in a slice.
-Rgb RainStage::find_veil(const PixelVeil& veil, int slice, size_t intensity, float transmission) const {
-    const size_t k = size_t(slice) * intensities_.size() + intensity;
-    return veil.inscatter[k] + veil.light[size_t(slice)] * (veil.transmissions[k] - transmission);
+/// Fills what the veil says of its streaks. cosine: of the ray through the pixel's centre to the view axis.
+void RainStage::find_before_streaks(float cosine, PixelVeil& veil) const {
+    const size_t count = intensities_.size();
+    veil.slices.clear();
+    veil.passed.assign(veil.streaks.size() * count, 1.0f);
+    veil.before.assign(veil.streaks.size() * count, Rgb(0));
+    const float half = 0.5f * bins_->exposure_time();
+    for (size_t k = 0; k < veil.streaks.size(); ++k) {
+        const Streak& streak = bins_->streaks()[veil.streaks[k]];
+        const float z = streak.start.z + half * streak.velocity.z;
+        const int slice = std::min(veil.last, DropLight::slice_of(z));
+        veil.slices.push_back(slice);
+        if (!medium_ || veil.in_rain.empty()) continue;
+        medium_->axis_depths(std::clamp(z, veil.in_rain.begin * cosine, veil.in_rain.end * cosine), veil.depths.data());
+        for (size_t i = 0; i < count; ++i) {
+            const float depth = (veil.depths[i] - veil.begin_depths[i]) / cosine;
+            const float passed = std::clamp(std::exp(-depth), veil.untouched[i].transmission, 1.0f);
+            const size_t begin = size_t(slice) * count + i;
+            veil.passed[k * count + i] = passed;
+            veil.before[k * count + i] =
+                veil.inscatter[begin] + veil.light[size_t(slice)] * (veil.transmissions[begin] - passed);
+        }
+    }
 }
 
 /// Light of a drop that is not looked into.
@@ -77,35 +104,31 @@ Rgb RainStage::fine_light(const StreakHit& hit, const CameraSegment& segment, co
     return light * settings_.textures->brightness(place, from);
 }
 
+bool RainStage::needs_ray(std::span<const StreakHit> hits) const {
+    return settings_.textures || std::ranges::any_of(hits, [](const StreakHit& hit) { return hit.width > 1; });
+}
+
 void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sampler& sampler,
                          std::vector<RainSample>& samples, RainScratch& scratch, Counters& counters) const {
     const size_t hits = scratch.hits.size(), count = intensities_.size();
     const bool paper = settings_.composition == Composition::paper;
     scratch.scattered_count = 0;
-    scratch.transmissions.assign((hits + 1) * count, 1.0f);
-    scratch.veil.assign(medium_ ? (hits + 1) * count : 0, Rgb(0));
+    scratch.transmissions.resize((hits + 1) * count);
+    scratch.veil.resize(medium_ ? (hits + 1) * count : 0);
     scratch.light.clear();
     bool distant_known = false;
     for (size_t k = 0; k < hits; ++k) {
         const StreakHit& hit = scratch.hits[k];
-        const float distance = hit.covered.distance;
-        const int slice = std::min(veil.last, DropLight::slice_of(distance * segment.view_ray.direction.z));
-        if (medium_ && !veil.in_rain.empty()) {
-            const float along = std::clamp(distance, veil.in_rain.begin, veil.in_rain.end);
-            medium_->axis_depths(along * veil.in_rain.cosine, veil.depths.data());
-            for (size_t i = 0; i < count; ++i) {
-                const float depth = (veil.depths[i] - veil.begin_depths[i]) / veil.in_rain.cosine;
-                const float passed = std::clamp(std::exp(-depth), veil.untouched[i].transmission, 1.0f);
-                scratch.transmissions[k * count + i] = passed;
-                scratch.veil[k * count + i] = find_veil(veil, slice, i, passed);
-            }
-        }
+        const auto place = size_t(std::ranges::lower_bound(veil.streaks, hit.streak) - veil.streaks.begin());
+        const int slice = veil.slices[place];
+        std::copy_n(&veil.passed[place * count], count, &scratch.transmissions[k * count]);
+        if (medium_) std::copy_n(&veil.before[place * count], count, &scratch.veil[k * count]);
         const Sampler of_streak = streak_sampler(hit, sampler);
         if (!paper && shows_picture(hit, of_streak)) {
             // What the light may be worth is known here before it is sampled, but not which lamp the drop shows.
+            // Lamps expected to bring more than that cost more time than the noise they save is worth.
             const float brightness = std::max(segment.background_luminance, luminance(veil.light[size_t(slice)]));
-            const float margin = tracer_->lights().has_local() ? 4 : 1;
-            const float most = worth(margin * hit.covered.fraction() * brightness, segment, settings_.streak_roulette);
+            const float most = worth(hit.covered.fraction() * brightness, segment, settings_.streak_roulette);
             if (!(most >= 1) && of_streak.get_1d(Draw::streak_choice) >= most) {
                 counters.count(Feature::streak_hit);
                 scratch.light.push_back(Rgb(0));
@@ -125,7 +148,7 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
     }
     if (paper) counters.count(Feature::paper_streak);
     for (size_t i = 0; i < count; ++i)
-        samples[i] = paper ? compose_paper(scratch, segment, i) : compose_physical(scratch, i);
+        paper ? compose_paper(scratch, segment, i, samples[i]) : compose_physical(scratch, i, samples[i]);
 }
 
 }  // namespace pluvia

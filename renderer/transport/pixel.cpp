@@ -89,31 +89,49 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
     PixelSums& sums = scratch.film.sums;
     add(sums.background, background * float(end - begin));
     if (scratch.candidates.empty() && !frame.has_medium) return;
-    const float dark = std::max(frame.dark, luminance(background));
-    const auto segment = [&](Vec2 pixel, const Ray& seen) {
-        return CameraSegment{pixel, scratch.candidates, scene_ray(frame.view, frame.far_scene, seen).ray,
-                             seen,  background,         dark};
-    };
     const Vec2 centre{float(x) + 0.5f, float(y) + 0.5f};
-    Ray seen{Vec3(), normalize(frame.view.view_direction(centre))};
+    CameraSegment segment{centre, scratch.candidates, {}, {}, background, std::max(frame.dark, luminance(background))};
+    Ray& seen = segment.view_ray;
+    seen = {Vec3(), normalize(frame.view.view_direction(centre))};
     seen.t_max = picture.along(x, y, seen).distance;
-    frame.rain->begin_pixel(x, y, segment(centre, seen), scratch.veil);
+    segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
+    frame.rain->begin_pixel(x, y, segment, scratch.veil);
+    const auto samples = uint64_t(end - begin);
+    counters.count(Feature::camera_path, samples);
+    counters.count(Feature::streak_test, samples);
+    if (frame.view.lens_radius > 0) counters.count(Feature::lens, samples);
+
     int untouched = 0;
-    for (int s = begin; s < end; ++s) {
-        const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(s));
-        const Vec2 u = sampler.get_2d(Draw::pixel), pixel{float(x) + u.x, float(y) + u.y};
-        if (frame.view.lens_radius > 0) counters.count(Feature::lens);
-        counters.count(Feature::camera_path);
-        counters.count(Feature::streak_test);
-        seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
-        seen.t_max = picture.along(x, y, seen).distance;
-        find_hits(*frame.bins, scratch.candidates, pixel, seen, scratch.streaks.hits);
-        if (scratch.streaks.hits.empty()) {
-            ++untouched;
-            continue;
+    std::array<Vec2, 64> positions;
+    for (int first = begin; first < end; first += int(positions.size())) {
+        const std::span<Vec2> some(positions.data(), std::min(positions.size(), size_t(end - first)));
+        const auto sampler = [&](size_t i) {
+            return Sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(first) + uint32_t(i));
+        };
+        sampler(0).get_2d(Draw::pixel, some);
+        for (Vec2& position : some) position = {float(x) + position.x, float(y) + position.y};
+        frame.bins->find_masks(scratch.candidates, some, scratch.masks);
+        for (size_t i = 0; i < some.size(); ++i) {
+            scratch.touching.clear();
+            for (size_t k = 0; k < scratch.masks.size(); ++k)
+                if (scratch.masks[k] >> i & 1) scratch.touching.push_back(scratch.candidates[k]);
+            scratch.streaks.hits.clear();
+            if (!scratch.touching.empty()) {
+                segment.pixel = some[i];
+                seen =
+                    view_ray(frame.view, some[i], frame.view.lens_radius > 0 ? sampler(i).get_2d(Draw::lens) : Vec2());
+                seen.t_max = picture.along(x, y, seen).distance;
+                find_hits(*frame.bins, scratch.touching, some[i], seen, scratch.streaks.hits);
+                if (frame.rain->needs_ray(scratch.streaks.hits))
+                    segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
+            }
+            if (scratch.streaks.hits.empty()) {
+                ++untouched;
+                continue;
+            }
+            frame.rain->evaluate(segment, scratch.veil, sampler(i), scratch.rain, scratch.streaks, counters);
+            add_rain(background, 1, scratch.rain, sums, counters);
         }
-        frame.rain->evaluate(segment(pixel, seen), scratch.veil, sampler, scratch.rain, scratch.streaks, counters);
-        add_rain(background, 1, scratch.rain, sums, counters);
     }
     add_rain(background, untouched, scratch.veil.untouched, sums, counters);
 }

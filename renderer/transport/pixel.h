@@ -58,6 +58,8 @@ struct PixelScratch {
     PixelVeil veil;
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
+    std::vector<uint32_t> touching;    // of them, those near a sample
+    std::vector<uint64_t> masks;       // of samples that a candidate may touch
     std::vector<float> values;
     std::vector<uint32_t> ids;
 };

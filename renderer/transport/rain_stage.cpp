@@ -52,7 +52,7 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
     const bool paper = settings_.composition == Composition::paper;
     if (paper && !scratch.hits.empty()) counters.count(Feature::paper_streak);
     for (size_t i = 0; i < intensities_.size(); ++i)
-        samples[i] = paper ? compose_paper(scratch, segment, i) : compose_physical(scratch, i);
+        paper ? compose_paper(scratch, segment, i, samples[i]) : compose_physical(scratch, i, samples[i]);
     return true;
 }
 
@@ -247,7 +247,7 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     return q >= 1 ? light : light / q;
 }
 
-RainSample RainStage::compose_physical(const RainScratch& scratch, size_t intensity) const {
+void RainStage::compose_physical(const RainScratch& scratch, size_t intensity, RainSample& result) const {
     const size_t count = scratch.hits.size();
     const float* const transmission = scratch.transmissions.data() + intensity;
     ExposureUnion covered;
@@ -277,11 +277,12 @@ RainSample RainStage::compose_physical(const RainScratch& scratch, size_t intens
     veil_before(count);
     sample.coverage = covered.total();
     sample.transmission = covered.transmittance() * transmission[count * intensities_.size()];
-    return sample;
+    result = sample;
 }
 
 /// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain S_a L tau0/T, in linear light; L holds the streak's texture.
-RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const {
+void RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity,
+                              RainSample& result) const {
     const size_t count = scratch.hits.size();
     const float* const transmission = scratch.transmissions.data() + intensity;
     float transmittance = 1;
@@ -314,7 +315,7 @@ RainSample RainStage::compose_paper(const RainScratch& scratch, const CameraSegm
     veil_before(count);
     sample.coverage = 1 - transmittance;
     sample.transmission = transmittance * transmission[count * intensities_.size()];
-    return sample;
+    result = sample;
 }
 
 }  // namespace pluvia

@@ -86,6 +86,10 @@ struct PixelVeil {
     std::vector<float> begin_depths;           // optical, along the view axis to where the rain begins, per intensity
     std::vector<float> depths;                 // a buffer of as many
     std::vector<RainSample> untouched;         // per intensity: what a sample is that no streak touches
+    std::span<const uint32_t> streaks;         // that samples may meet, rising; for each of them:
+    std::vector<int> slices;                   // where it is
+    std::vector<float> passed;                 // transmission of the medium up to it, per intensity
+    std::vector<Rgb> before;                   // in-scattered light up to it, per intensity
 };
 
 class RainStage {
@@ -97,8 +101,11 @@ public:
     /// The same with light of fine drops from a table. Keeps a reference.
     void set_drop_light(const DropLight& light);
     bool has_drop_light() const { return drop_light_ != nullptr; }
-    /// For all samples of a pixel, where there is a drop_light; segment: of its centre.
+    /// For all samples of a pixel, where there is a drop_light; segment: of its centre, with candidates that live as
+    /// long as the veil is used. A streak is as far as its drop in the middle of the exposure for all of them.
     void begin_pixel(int x, int y, const CameraSegment& segment, PixelVeil& veil) const;
+    /// Whether light of a streak depends on CameraSegment::ray; where it does not, evaluate does not look at it.
+    bool needs_ray(std::span<const StreakHit> hits) const;
     /// A sample with the streaks of scratch.hits, of which there is at least one.
     void evaluate(const CameraSegment& segment, PixelVeil& veil, const Sampler& sampler,
                   std::vector<RainSample>& samples, RainScratch& scratch, Counters& counters) const;
@@ -114,11 +121,13 @@ private:
                  RainScratch& scratch, Counters& counters) const;
     void scatter_near_lamp(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, Vec3 anchor,
                            const Sampler& sampler, RainScratch& scratch, Counters& counters) const;
-    RainSample compose_physical(const RainScratch& scratch, size_t intensity) const;
-    RainSample compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity) const;
+    void compose_physical(const RainScratch& scratch, size_t intensity, RainSample& result) const;
+    void compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity,
+                       RainSample& result) const;
     /// Numbers of a drop's own: its light does not depend on which other drops are there.
     Sampler streak_sampler(const StreakHit& hit, const Sampler& sampler) const;
-    Rgb find_veil(const PixelVeil& veil, int slice, size_t intensity, float transmission) const;
+    void find_medium(const CameraSegment& segment, PixelVeil& veil) const;
+    void find_before_streaks(float cosine, PixelVeil& veil) const;
     bool shows_picture(const StreakHit& hit, const Sampler& sampler) const;
     Rgb fine_light(const StreakHit& hit, const CameraSegment& segment, const PixelVeil& veil, int slice,
                    const Sampler& sampler) const;

@@ -63,7 +63,9 @@ void write_layers(const std::string& path, const LayerPlanes& layers, const Fram
 
 LayerPlanes::LayerPlanes(int width, int height, const std::vector<double>& intensities)
     : width_(width), height_(height), channels_(layer_channels(intensities)) {
-    for (const std::string& channel : channels_) planes_[channel].resize(size_t(width) * size_t(height));
+    std::vector<std::vector<float>*> planes;
+    for (const std::string& channel : channels_) planes.push_back(&planes_[channel]);
+    parallel_for(int(planes.size()), [&](int i) { planes[size_t(i)]->resize(size_t(width) * size_t(height)); });
 }
 
 void LayerPlanes::add(const Band& band) {

@@ -1,6 +1,7 @@
 #include "tools/augment/augment_item.h"
 
 #include "renderer/core/error.h"
+#include "renderer/core/parallel.h"
 #include "renderer/core/random.h"
 #include "renderer/image/color.h"
 #include "renderer/image/exposure.h"
@@ -47,6 +48,15 @@ Image<Rgb> read_exr_picture(const std::string& path, double& ev100, std::string&
     ev100 = has_exposure ? double(std::get<float>(known->second)) : histogram.auto_ev100();
     by = has_exposure ? "file" : "light meter";
     return image;
+}
+
+void make_linear(Image<Rgb>& coded) {
+    parallel_for(coded.height, [&](int y) {
+        for (int x = 0; x < coded.width; ++x) {
+            Rgb& c = coded.at(x, y);
+            c = {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+        }
+    });
 }
 
 Json item_json(const AugmentItem& item, const AugmentSettings& settings, const PictureInput& picture,
@@ -106,9 +116,7 @@ PictureInput read_picture(const AugmentItem& item, const AugmentSettings& settin
     } else {
         const bool is_float = read_image_info(item.picture).is_float;
         picture.source.radiance = is_float ? read_radiance(item.picture) : read_display(item.picture);
-        if (!is_float && settings.options.curve == "srgb")
-            for (Rgb& c : picture.source.radiance.pixels)
-                c = {linear_from_srgb(c.r), linear_from_srgb(c.g), linear_from_srgb(c.b)};
+        if (!is_float && settings.options.curve == "srgb") make_linear(picture.source.radiance);
         in_nits = false;
     }
     const Image<Rgb>& p = picture.source.radiance;
