@@ -4,29 +4,12 @@
 #include "renderer/scene/taxonomy.h"
 #include "tools/dataset/config_tree.h"
 #include "tools/dataset/suggestion.h"
+#include "tools/label_pattern.h"
 
 #include <fmt/format.h>
 
 namespace pluvia {
 namespace {
-
-/// Whether a pattern names a group or counts repetitions by more digits than std::regex can hold in a number, which it
-/// does not notice.
-bool has_long_number(const std::string& pattern) {
-    size_t digits = 0;
-    bool counts = false, in_braces = false;
-    for (size_t i = 0; i < pattern.size(); ++i) {
-        const char c = pattern[i];
-        if (c < '0' || c > '9') {
-            in_braces = c == '{' || (in_braces && c != '}');
-            digits = 0;
-            continue;
-        }
-        if (digits == 0) counts = in_braces || (i > 0 && pattern[i - 1] == '\\');
-        if (++digits > 9 && counts) return true;
-    }
-    return false;
-}
 
 using Kind = ConfigNode::Kind;
 
@@ -42,20 +25,7 @@ LabelRule read_rule(const std::string& path, const ConfigNode& node) {
         if (entry.value.kind != Kind::scalar) throw fail(entry.line, entry.key + " is not a single value");
         if (entry.key == "nodes") {
             rule.pattern = text;
-            // The library's parser and matcher call themselves for each part of an expression.
-            constexpr size_t longest = 1000;
-            if (text.size() > longest)
-                throw fail(entry.line, fmt::format("nodes is too long (got {} characters, expected at most {})",
-                                                   text.size(), longest));
-            if (has_long_number(text))
-                throw fail(entry.line,
-                           "nodes counts too far (expected numbers of groups and repetitions of at most 9 "
-                           "digits)");
-            try {
-                rule.path = std::regex(text);
-            } catch (const std::regex_error& e) {
-                throw fail(entry.line, fmt::format("nodes is no regular expression (got \"{}\": {})", text, e.what()));
-            }
+            rule.path = compile_label_pattern(text, fmt::format("{}:{}", path, entry.line));
         } else if (entry.key == "class") {
             rule.class_id = class_id(text);
             has_class = true;

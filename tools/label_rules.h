@@ -2,6 +2,7 @@
 //   - nodes: "(car_[a-z]+).*"   # regular expression that a node's whole path matches, "street/car_taxi"
 //     class: car                # as Cityscapes names it
 //     object: "$1"              # optional: nodes with the same are one object; $1 is what the first group matched
+// An expression is ECMAScript's without references back to groups and without looking ahead (label_pattern.h).
 // A rule holds for all nodes below those that match, unless another matches nearer; of several the first holds.
 #pragma once
 
