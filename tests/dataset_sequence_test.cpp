@@ -77,7 +77,7 @@ TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of 
     std::map<std::string, size_t> frames[2];  // by sequence
     std::set<std::string> streets[2];
     std::map<std::string, std::set<double>> hours;  // by street
-    double least = 1e9, most = 0;
+    double least = 1e9, most = 0, strongest = 0;
     for (const DatasetItem& item : dataset_items(read_dataset_config(path))) {
         ++frames[item.is_test][item.scene_name + "/" + item.camera];
         streets[item.is_test].insert(item.options.scene);
@@ -86,12 +86,16 @@ TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of 
         REQUIRE(item.options.layers == std::vector<std::string>{"all"});
         REQUIRE(item.options.fps == 10);
         REQUIRE(item.camera == "drive");
+        // Streets run along z between houses, which keep away what is blown across.
+        REQUIRE(std::abs(item.options.wind[0]) <= 0.5);
+        strongest = std::max(strongest, std::hypot(item.options.wind[0], item.options.wind[2]));
     }
+    CHECK(strongest > 4);
     CHECK(frames[0].size() == 21);
     CHECK(frames[1].size() == 3);
     for (const auto& split : frames)
         for (const auto& [sequence, count] : split) CHECK_MESSAGE(count == 1000, sequence);
-    for (const auto& [street, of_day] : hours) CHECK_MESSAGE(of_day == std::set<double>{12, 17.4, 20}, street);
+    for (const auto& [street, of_day] : hours) CHECK_MESSAGE((of_day == std::set<double>{12, 17.4, 20}), street);
     CHECK(least == 5);
     CHECK(most == 100);
     CHECK(streets[0].size() == 7);

@@ -177,7 +177,8 @@ TEST_CASE("flow of what moves is what depth, poses and the motions of objects sa
         instance.scene_from_object = motion.scene_from_object[0];
         motions.push_back(motion);
     }
-    const LabelSource source = render_labels(shot().folder, scene, "moving", 4, "", motions);
+    scene.cameras.push_back({"side", translate({1.5, 2, 3}), 0.9});
+    const LabelSource source = render_labels(shot().folder, scene, "moving", 4, "--camera drive", motions);
     LabelFrame frame(source);
     const LabelCheck check = check_labels(frame);
     CHECK(check.faults == std::vector<std::string>());
@@ -193,6 +194,19 @@ TEST_CASE("flow of what moves is what depth, poses and the motions of objects sa
     CHECK(find(frame, "people/person_1").json.at("motion_next").size() == 2);
     CHECK(find(frame, "traffic/car_2").json.at("motion_next").size() == 1);
     CHECK(!find(frame, "traffic/car_1").moves);
+    // Another camera at another time sees the same ids.
+    LabelFrame other(render_labels(shot().folder, scene, "moved", 8, "--camera side", motions));
+    CHECK(check_labels(other).faults == std::vector<std::string>());
+    size_t in_both = 0;
+    for (const FrameObject& a : frame.objects)
+        for (const FrameObject& b : other.objects) {
+            CHECK((a.name == b.name) == (a.id == b.id));
+            if (a.name != b.name) continue;
+            ++in_both;
+            CHECK(a.number == b.number);
+            CHECK(a.index == b.index);
+        }
+    CHECK(in_both >= 6);
     // At rest in the picture of the check, where it is not in truth: more than 0.1 pixel off.
     LabelFrame still(source);
     for (FrameObject& o : still.objects) o.moves = false;

@@ -32,16 +32,14 @@ TEST_CASE("trap: depth is metric and linear, not a logarithm in 8 bits for displ
     CHECK(read_image_info(shot().folder / "frame/depth.png").bits == 16);
     const auto stored = read_grey16(shot().folder / "frame/depth.png");
     const auto z = frame.values("Z");
-    std::set<uint16_t> values;
     float near = 1e9f, far = 0;
     for (size_t i = 0; i < z.size(); ++i) {
         if (!(z[i] < 255)) continue;
-        // As exact far away as near: half a step of 1/256 m.
+        // Half a step of 1/256 m, as far away as near, where 8 bits of a logarithm are 2 % off.
         REQUIRE(std::abs(float(stored.pixels[i]) / 256 - z[i]) <= 0.5f / 256 + 1e-6f);
-        near = std::min(near, z[i]), far = std::max(far, z[i]), values.insert(stored.pixels[i]);
+        near = std::min(near, z[i]), far = std::max(far, z[i]);
     }
     CHECK(far > 3 * near);
-    CHECK(values.size() > 256);  // more than 8 bits can hold
 }
 
 TEST_CASE("trap: what a value of depth means stands beside it, for every encoding") {
