@@ -89,15 +89,15 @@ Room terrace() {
 /// At the edge of the carriageway, beside pavements too full to walk on; over these past parked cars and at the ends.
 Room brickyard() {
     const auto way = [](std::vector<std::pair<double, double>> past_cars) {
-        std::vector<std::pair<double, double>> z_and_x = {{city_near - kerb, 4.9}, {32.8, 4.9}, {31.6, 3.3}};
+        std::vector<std::pair<double, double>> z_and_x = {{city_near - kerb, 4.9}, {36.4, 4.9}, {35.2, 3.3}};
         z_and_x.insert(z_and_x.end(), past_cars.begin(), past_cars.end());
         z_and_x.insert(z_and_x.end(), {{-60, 3.3}, {-61.2, 4.9}, {city_far + kerb, 4.9}});
         std::vector<Vec3d> walk;
         for (const auto& [z, x] : z_and_x) walk.push_back({x, x < 3.9 ? 0.06 : 0.14, z});
         return walk;
     };
-    return city(0.92, -0.92, true, way({{-21.5, 3.3}, {-22.6, 4.95}, {-28.55, 4.95}, {-30.15, 3.3}}),
-                way({{-5.2, 3.3}, {-6.4, 4.95}, {-18, 4.95}, {-19.2, 3.3}}));
+    return city(0.92, -0.92, true, way({{-20.9, 3.3}, {-21.7, 5.1}, {-28.4, 5.1}, {-30.2, 3.3}}),
+                way({{-5.6, 3.3}, {-6.6, 4.8}, {-18, 4.8}, {-19.2, 3.3}}));
 }
 
 /// A street for those who walk, through which a camera goes as a bicycle does.
