@@ -86,18 +86,24 @@ Room terrace() {
     return city(1.65, -0.2, true, aside(13, 4.35), aside(-5, 4.65));
 }
 
-/// At the edge of the carriageway, beside pavements too full to walk on; over these past parked cars and at the ends.
+/// On the left only, at the edge of the carriageway, since pavements are too full to walk on; over the pavement past a
+/// parked car and at the ends. On the right a stoop leaves no way between itself and a parked car.
 Room brickyard() {
-    const auto way = [](std::vector<std::pair<double, double>> past_cars) {
-        std::vector<std::pair<double, double>> z_and_x = {{city_near - kerb, 4.9}, {36.4, 4.9}, {35.2, 3.3}};
-        z_and_x.insert(z_and_x.end(), past_cars.begin(), past_cars.end());
-        z_and_x.insert(z_and_x.end(), {{-60, 3.3}, {-61.2, 4.9}, {city_far + kerb, 4.9}});
-        std::vector<Vec3d> walk;
-        for (const auto& [z, x] : z_and_x) walk.push_back({x, x < 3.9 ? 0.06 : 0.14, z});
-        return walk;
-    };
-    return city(0.92, -0.92, true, way({{-20.9, 3.3}, {-21.7, 5.1}, {-28.4, 5.1}, {-30.2, 3.3}}),
-                way({{-5.6, 3.3}, {-6.6, 4.8}, {-18, 4.8}, {-19.2, 3.3}}));
+    std::vector<Vec3d> walk;
+    for (const auto& [z, x] : std::initializer_list<std::pair<double, double>>{{city_near - kerb, 4.9},
+                                                                               {36.4, 4.9},
+                                                                               {35.2, 3.3},
+                                                                               {-20.9, 3.3},
+                                                                               {-21.7, 5.1},
+                                                                               {-28.4, 5.1},
+                                                                               {-30.2, 3.3},
+                                                                               {-60, 3.3},
+                                                                               {-61.2, 4.9},
+                                                                               {city_far + kerb, 4.9}})
+        walk.push_back({x, x < 3.9 ? 0.06 : 0.14, z});
+    Room room = city(0.92, -0.92, true, walk, walk);
+    room.walks.pop_back();
+    return room;
 }
 
 /// A street for those who walk, through which a camera goes as a bicycle does.
