@@ -200,6 +200,12 @@ Scene build_arcade(const ArcadePlan& plan) {
     row.add("right", plan.right, right_wall(plan.wall, plan.far_end), true);
     row.add("far", plan.far, end_wall(-22, plan.far_end - 7), true);
     row.add("behind", plan.behind, facing_away(22, plan.near_end + 7), false);
+    // Across the ends of the crossing streets, for who turns there.
+    const std::string some = plan.far.substr(0, 4);
+    for (const auto& [name, z] : {std::pair{"far", plan.far_end - 3.5f}, {"near", plan.near_end + 3.5f}}) {
+        row.add(std::string("west_") + name, some, left_wall(-31, z + 11), false);
+        row.add(std::string("east_") + name, some, right_wall(31, z - 11), false);
+    }
     add_poles(plan, street, palette);
     add_things(plan, street, palette);
     street.scene.cameras = plan.cameras;

@@ -57,6 +57,10 @@ void add_houses(const CityPlan& plan, Street& street, Palette& palette) {
     houses.add_row("right", plan.right, right_wall(wall, -72));
     houses.add_row("far", plan.far, end_wall(-30, -86));
     houses.add_row("behind", plan.behind, facing_away(26, 53));
+    // Across the ends of the crossing streets, for who turns there.
+    const std::string some = plan.left.substr(0, 4);
+    houses.add_row("west_far", some, left_wall(-61, -62)), houses.add_row("west_near", some, left_wall(-61, 62));
+    houses.add_row("east_far", some, right_wall(61, -94)), houses.add_row("east_near", some, right_wall(61, 30));
 }
 
 void add_ground(const CityPlan& plan, Street& street, Palette& palette) {
@@ -78,6 +82,10 @@ void add_ground(const CityPlan& plan, Street& street, Palette& palette) {
             append(far_pavement[palette("paving")], slab, {});
         }
     place_once(street, plan.name + "/far_pavements", "sidewalk", far_pavement);
+    Assembly plinths;  // on which houses stand, seen at their ends
+    for (const float x : {-plan.road.wall() - 11.9f, plan.road.wall() + 0.1f})
+        add_block(plinths[palette("kerb_stone")], {x, -0.3f, -71.9f}, {x + 11.8f, 0.14f, 35.9f}, {Rgb(0.8f), {}});
+    place_once(street, plan.name + "/plinths", "building", plinths);
     Assembly block;
     add_facet(block[palette("soil")], {Vec3{-80, -0.3f, 90}, {80, -0.3f, 90}, {80, -0.3f, -120}, {-80, -0.3f, -120}});
     place_once(street, plan.name + "/block", "terrain", block);

@@ -2,126 +2,115 @@
 
 #include "scenes/car.h"
 #include "scenes/person.h"
+#include "scenes/route.h"
+#include "scenes/traffic_rooms.h"
 
-#include "renderer/core/error.h"
 #include "renderer/core/units.h"
 
 #include <cmath>
-#include <map>
 
 namespace pluvia {
 namespace {
-
-/// Where there is room to move in a street: along z, at these x and heights.
-struct Track {
-    double x, y;
-    int direction;  // of cars: +1 towards +z; people go both ways
-};
-struct Room {
-    std::vector<Track> lanes, walks;
-    double near = 30, far = -60;  // z between which people start
-    int people = 5;               // on each walk
-};
-
-Room room_of(const std::string& street) {
-    // Lanes between parked cars, walks between trees at the kerb and what stands along the walls: see city_parts.cpp.
-    const auto city = [](double lane, double walk) {
-        return Room{{{-lane, 0.05, 1}, {lane, 0.05, -1}}, {{-walk, 0.17, 0}, {walk, 0.17, 0}}};
-    };
-    const auto arcade = [](double x) { return Room{{}, {{-x, 0.01, 0}, {x, 0.01, 0}}, 6, -34, 5}; };
-    const std::map<std::string, Room> rooms = {
-        {"citystreet", city(1.4, 6.5)},
-        {"avenue", city(2.2, 9.5)},
-        {"terrace", {{{1.75, 0.05, -1}}, {{-5.05, 0.17, 0}, {5.05, 0.17, 0}}}},
-        {"brickyard", {{{-0.8, 0.05, 1}}, {{-5.3, 0.14, 0}, {5.3, 0.14, 0}}}},
-        {"japanesestreet", arcade(2.1)},
-        {"backstreet", arcade(1.0)},
-        {"stationstreet", arcade(2.4)},
-    };
-    const auto found = rooms.find(street);
-    if (found == rooms.end())
-        throw usage_error("traffic",
-                          "has no room in the scene \"" + street + "\" (expected a street wider than the lane)");
-    return found->second;
-}
 
 /// A rigid placement that turns by `pitch` around the x axis of what faces `heading` around y.
 Transform placed(Vec3d at, double heading, double pitch = 0) {
     return translate(at) * rotate_y(heading) * rotate(std::sin(pitch / 2), 0, 0, std::cos(pitch / 2));
 }
 
+/// When keys are: close enough for corners, and at the frames of 10 a second.
+const std::vector<float>& key_times() {
+    static const std::vector<float> times = [] {
+        std::vector<float> list;
+        for (int k = 0; k <= 10 * int(traffic_seconds); ++k) list.push_back(float(k) / 10);
+        return list;
+    }();
+    return times;
+}
+
+CarShape narrow(CarShape shape) {
+    shape.width = 1.5f, shape.length *= 0.85f;
+    for (float* z : {&shape.cabin_front, &shape.cabin_rear, &shape.roof_front, &shape.roof_rear}) *z *= 0.85f;
+    return shape;
+}
+
 class Traffic {
 public:
     explicit Traffic(Scene& scene)
-        : street_{std::move(scene), {}}, palette_(street_), room_(room_of(street_.scene.name)) {}
+        : street_{std::move(scene), {}}, palette_(street_), room_(traffic_room(street_.scene.name)) {}
 
     std::vector<NodeMotion> add() {
+        if (room_.cars) add_cars(*room_.cars);
         int number = 0;
-        for (const Track& lane : room_.lanes) add_cars(lane, number);
-        number = 0;
         for (const Track& walk : room_.walks) add_people(walk, number);
-        if (!room_.lanes.empty()) add_camera(room_.lanes.back());
+        add_camera(room_.cars ? *room_.cars : room_.camera);
         check(street_.scene, street_.scene.name);
         return std::move(motions_);
     }
     Scene scene() { return std::move(street_.scene); }
 
 private:
-    static constexpr int cars_in_row = 4;
-    static constexpr double car_speed = 5, car_gap = 19;  // m/s, metres
-
-    /// A row that enters by the crossing street at one end and stays between both for traffic_seconds.
-    void add_cars(const Track& lane, int& number) {
+    /// All but the first place, which is the camera's.
+    void add_cars(const Track& track) {
         static const char* const paints[] = {"car_silver", "car_black", "car_red", "car_white", "car_blue"};
-        for (int k = 0; k < cars_in_row; ++k, ++number) {
-            const double way = car_gap * k + chance_(0, 4), z = lane.direction > 0 ? -70 + way : 46 - way;
-            const CarShape shape = number % 3 == 0 ? hatchback() : number % 3 == 1 ? saloon() : estate();
-            const std::string name = street_.scene.name + "/driving_" + std::to_string(number);
-            add_moving(name, "", "car", car(palette_, shape, paints[number % 5]), {0, traffic_seconds}, [&](double t) {
-                return placed({lane.x, lane.y, z + lane.direction * car_speed * t}, lane.direction > 0 ? 0 : pi);
+        const Route route(track.corners, track.route);
+        for (int k = 1; k <= track.count; ++k) {
+            const double start = route.period() * k / (track.count + 1) + chance_(-0.4f, 0.4f);
+            CarShape shape = k % 3 == 0 ? hatchback() : k % 3 == 1 ? saloon() : estate();
+            if (room_.small_cars) shape = narrow(shape);
+            const std::string name = street_.scene.name + "/driving_" + std::to_string(k - 1);
+            add_moving(name, "", "car", car(palette_, shape, paints[k % 5]), [&](double t) {
+                const RoutePlace at = route.at(start + t);
+                return placed(at.position, at.heading);
             });
         }
     }
 
-    void add_people(const Track& walk, int& number) {
-        for (int i = 0; i < room_.people; ++i, ++number) {
-            const int direction = (number + i) % 2 == 0 ? 1 : -1;
-            const double speed = chance_(1.0f, 1.5f), stride = 1.3 + 0.1 * speed;  // m/s, metres a pair of steps
-            const double share = (i + chance_(0.1f, 0.9f)) / room_.people;
-            const Vec3d start(walk.x + chance_(-0.25f, 0.25f), walk.y, room_.near + share * (room_.far - room_.near));
-            const double heading = direction > 0 ? 0 : pi, phase = chance_(0, 2 * pi);
+    void add_people(const Track& track, int& number) {
+        const Route route(track.corners, track.route);
+        for (int i = 0; i < track.count; ++i, ++number) {
+            const double speed = track.route.speed, stride = 1.3 + 0.1 * speed;  // m/s, metres a pair of steps
+            // In a file that a camera goes along with, between it and the next.
+            const double start = route.period() * (i + 0.5 + chance_(-0.3f, 0.3f)) / track.count;
+            const double phase = chance_(0, 2 * pi);
             PersonLook look;
             look.coat = color(0.02f, 0.35f), look.trousers = color(0.02f, 0.12f), look.umbrella = color(0.03f, 0.6f);
             look.hair = Rgb(chance_(0.01f, 0.12f)), look.has_umbrella = number % 4 != 3;
             const std::string name = street_.scene.name + "/walking_" + std::to_string(number);
-            const auto at = [&](double t) { return start + Vec3d(0, 0, direction * speed * t); };
-            add_moving(name + "/body", name, "person", person_body(palette_, look), {0, traffic_seconds},
-                       [&](double t) { return placed(at(t), heading); });
-            std::vector<float> times;
-            for (int k = 0; k <= 120; ++k) times.push_back(traffic_seconds * float(k) / 120);
+            const auto at = [&](double t) { return route.at(start + t); };
+            add_moving(name + "/body", name, "person", person_body(palette_, look),
+                       [&](double t) { return placed(at(t).position, at(t).heading); });
             const Assembly leg = person_leg(palette_, look);
             for (const int side : {-1, 1})
-                add_moving(name + (side < 0 ? "/leg_right" : "/leg_left"), name, "person", leg, times, [&](double t) {
+                add_moving(name + (side < 0 ? "/leg_right" : "/leg_left"), name, "person", leg, [&](double t) {
+                    const RoutePlace place = at(t);
                     const double swing = side * 0.42 * std::sin(2 * pi * speed / stride * t + phase);
-                    const Vec3d hip = at(t) + rotate_y(heading).vector({side * hip_offset, hip_height, 0});
-                    return placed(hip, heading, swing);
+                    const Vec3d hip =
+                        place.position + rotate_y(place.heading).vector({side * hip_offset, hip_height, 0});
+                    return placed(hip, place.heading, swing);
                 });
         }
     }
 
-    /// Between the last cars of a row, at the height of eyes.
-    void add_camera(const Track& lane) {
-        const double z = lane.direction > 0 ? -58.5 : 34.5;
-        const Vec3d at(lane.x - 0.35 * lane.direction, 1.35, z), ahead = at + Vec3d(0, 0.04, lane.direction * 30);
-        street_.scene.cameras.push_back(
-            look_at("drive", at, ahead, 30, {0, 0, lane.direction * car_speed * traffic_seconds}, traffic_seconds));
+    /// At the height of a driver's eyes.
+    void add_camera(const Track& track) {
+        const Route route(track.corners, track.route);
+        const auto eye = [&](double t) { return route.at(t).position + Vec3d(0, 1.35, 0); };
+        const auto ahead = [&](double t) {
+            const double heading = route.at(t).heading;
+            return eye(t) + Vec3d(std::sin(heading), 0, std::cos(heading));
+        };
+        NodeMotion motion{"drive", "", key_times(), {}};
+        for (const float t : key_times())
+            motion.scene_from_object.push_back(look_at("drive", eye(t), ahead(t), 30).scene_from_camera);
+        street_.scene.cameras.push_back(look_at("drive", eye(0), ahead(0), 30));
+        motions_.push_back(std::move(motion));
     }
 
     template <class Place>
     void add_moving(const std::string& path, const std::string& object, const std::string& semantic,
-                    const Assembly& assembly, const std::vector<float>& times, Place place_at) {
-        NodeMotion motion{path, object, times, {}};
-        for (const float t : times) motion.scene_from_object.push_back(place_at(t));
+                    const Assembly& assembly, Place place_at) {
+        NodeMotion motion{path, object, key_times(), {}};
+        for (const float t : key_times()) motion.scene_from_object.push_back(place_at(t));
         place_once(street_, path, semantic, assembly, motion.scene_from_object[0]);
         motions_.push_back(std::move(motion));
     }
@@ -130,7 +119,7 @@ private:
 
     Street street_;
     Palette palette_;
-    Room room_;
+    const Room room_;
     Chance chance_{0x7aff1c};
     std::vector<NodeMotion> motions_;
 };

@@ -7,10 +7,11 @@
 
 namespace pluvia {
 
-constexpr float traffic_seconds = 12;  // as long as cameras walk
+constexpr float traffic_seconds = 100;  // a thousand frames, 10 a second
 
-/// Adds to a street of builders.h what moves in it: people, cars where there is a carriageway, and there a camera
-/// "drive". Returns how they move; the scene holds them where they are at the start. The same every time.
+/// Adds to a street of builders.h what moves in it for traffic_seconds: people, cars where there is a carriageway, and
+/// a camera "drive" among them. Returns how they move; the scene holds them where they are at the start. The same every
+/// time.
 std::vector<NodeMotion> add_traffic(Scene& scene);
 
 }  // namespace pluvia

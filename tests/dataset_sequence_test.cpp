@@ -3,6 +3,7 @@
 #include "tools/dataset/frame_keys.h"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace pluvia {
@@ -71,19 +72,30 @@ TEST_CASE("frames of a sequence share their rain, and each has its own noise, in
     CHECK(items[2].rainy_path(80, "rain_mask", "png") == "rainy/court/eye/over_time/rain_mask/frame_0002.png");
 }
 
-TEST_CASE("extremerain.yaml plans 21,000 frames for training and 3,000 of another street for tests") {
+TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of seven streets, and 3 of another") {
     const std::string path = std::string(PLUVIA_SOURCE_DIR) + "/scenes/extremerain.yaml";
-    size_t train = 0, test = 0;
-    double least = 1e9, most = 0;
+    std::map<std::string, size_t> frames[2];  // by sequence
     std::set<std::string> streets[2];
+    std::map<std::string, std::set<double>> hours;  // by street
+    double least = 1e9, most = 0, strongest = 0;
     for (const DatasetItem& item : dataset_items(read_dataset_config(path))) {
-        ++(item.is_test ? test : train);
+        ++frames[item.is_test][item.scene_name + "/" + item.camera];
         streets[item.is_test].insert(item.options.scene);
+        hours[item.options.scene].insert(item.options.light.hour);
         least = std::min(least, item.options.rain[0]), most = std::max(most, item.options.rain[0]);
-        REQUIRE(!item.options.layers.empty());
+        REQUIRE(item.options.layers == std::vector<std::string>{"all"});
+        REQUIRE(item.options.fps == 10);
+        REQUIRE(item.camera == "drive");
+        // Streets run along z between houses, which keep away what is blown across.
+        REQUIRE(std::abs(item.options.wind[0]) <= 0.5);
+        strongest = std::max(strongest, std::hypot(item.options.wind[0], item.options.wind[2]));
     }
-    CHECK(train == 21000);
-    CHECK(test == 3000);
+    CHECK(strongest > 4);
+    CHECK(frames[0].size() == 21);
+    CHECK(frames[1].size() == 3);
+    for (const auto& split : frames)
+        for (const auto& [sequence, count] : split) CHECK_MESSAGE(count == 1000, sequence);
+    for (const auto& [street, of_day] : hours) CHECK_MESSAGE((of_day == std::set<double>{12, 17.4, 20}), street);
     CHECK(least == 5);
     CHECK(most == 100);
     CHECK(streets[0].size() == 7);

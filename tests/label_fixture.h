@@ -40,9 +40,10 @@ inline Scene labelled_street() {
 
 /// Renders frame `number` of a scene with all labels into folder/name.
 inline LabelSource render_labels(const TemporaryFolder& folder, const Scene& scene, const std::string& name,
-                                 int number = 0, const std::string& more = "") {
+                                 int number = 0, const std::string& more = "",
+                                 const std::vector<NodeMotion>& motions = {}) {
     const std::string file = folder / (name + ".glb");
-    save_glb(scene, file);
+    save_glb(scene, file, motions);
     const Outcome outcome =
         run_program("render " + file + " -o " + (folder / name) + " --frame " + std::to_string(number) +
                     " --fps 10 --size 192x96 --spp 1 --bounces 0 --environment 100,100,100 --layers all"

@@ -1,6 +1,7 @@
-"""Reads exported labels with numpy and PIL only and compares them with the frame's own planes.
+"""Reads exported labels with numpy and PIL only, and frame.exr with OpenImageIO, and compares them with the frame's own
+planes.
 
-The argument is a folder with the planes as raw numbers, frame.json, and one folder per format. Tables are restated here
+The argument is a folder with the planes as raw numbers, frame.exr, frame.json, and one folder per format. Tables are restated here
 from what the formats publish; nothing is taken from Pluvia's."""
 import json
 import struct
@@ -15,6 +16,8 @@ width, height = (int(2 * frame["camera"]["intrinsics"][k][2]) for k in (0, 1))
 shape = (height, width)
 CITYSCAPES = {"road": (7, 0), "building": (11, 2), "pole": (17, 5), "polegroup": (18, 255), "sky": (23, 10),
               "person": (24, 11), "car": (26, 13)}
+COLORS = {"road": (128, 64, 128), "building": (70, 70, 70), "pole": (153, 153, 153), "polegroup": (153, 153, 153),
+          "sky": (70, 130, 180), "person": (220, 20, 60), "car": (0, 0, 142)}
 CARLA = {"road": 1, "building": 3, "pole": 6, "polegroup": 6, "sky": 11, "person": 12, "car": 14}
 CARLA_OLD = {"road": 7, "building": 1, "pole": 5, "polegroup": 5, "sky": 13, "person": 4, "car": 10}
 COCO = {"road": 149, "building": 197, "sky": 187, "person": 1, "car": 3}
@@ -44,6 +47,7 @@ def cityscapes():
     stem = "cityscapes/frame_gtFine_"
     assert (read(stem + "labelIds.png") == mapped(CITYSCAPES, 0)).all()
     assert (read(stem + "labelTrainIds.png") == mapped(CITYSCAPES, 1)).all()
+    assert (read(stem + "color.png") == np.array([COLORS[n] for n in names.flat]).reshape(*shape, 3)).all()
     instances = read(stem + "instanceIds.png").astype(int)
     countable = np.isin(names, ["car", "person"])
     assert (np.where(countable, instances // 1000, instances) == mapped(CITYSCAPES, 0)).all()
@@ -122,17 +126,10 @@ def kitti():
     assert np.allclose(pose, np.eye(4)[:3])
 
 
-def flow():
-    occlusion, u, v = (plane(f"flow_fwd.{c}", "<f4") for c in ("occlusion", "U", "V"))
-    data = open(f"{root}/flo/flow/frame_fwd.flo", "rb").read()
-    assert struct.unpack("<f2i", data[:12]) == (202021.25, width, height)
-    pairs = np.frombuffer(data, "<f4", offset=12).reshape(height, width, 2)
-    known = occlusion != 3
-    assert (pairs[known][:, 0] == u[known]).all() and (pairs[known][:, 1] == v[known]).all()
-    assert (np.abs(pairs[~known]) > 1e9).all()
-    # PIL keeps 8 of the 16 bits of a colour PNG, so the devkit's file is unpacked by hand.
+def png16(path):
+    """A PNG of 16 bits and three channels, of which PIL keeps 8."""
     import zlib
-    png = open(f"{root}/kitti/flow_occ/frame.png", "rb").read()
+    png = open(path, "rb").read()
     at, packed = 8, b""
     while at < len(png):
         size, kind = struct.unpack(">I4s", png[at:at + 8])
@@ -152,13 +149,106 @@ def flow():
             paeth = min((a, b, c), key=lambda n: abs(p - n))
             row[i] = (row[i] + (0, a, b, (a + b) // 2, paeth)[kind]) & 255
         rows.append(row)
-    values = np.frombuffer(b"".join(rows), ">u2").reshape(height, width, 3).astype(float)
-    valid = values[..., 2] == 1
-    assert (valid == known).all()
-    assert np.abs((values[..., 0] - 2**15) / 64 - u)[valid].max() <= 1 / 128 + 1e-6
-    assert np.abs((values[..., 1] - 2**15) / 64 - v)[valid].max() <= 1 / 128 + 1e-6
+    return np.frombuffer(b"".join(rows), ">u2").reshape(height, width, 3).astype(float)
 
 
-for check in (cityscapes, carla, coco, kitti, flow):
+def flow():
+    for direction in ("fwd", "bwd"):
+        occlusion, u, v = (plane(f"flow_{direction}.{c}", "<f4") for c in ("occlusion", "U", "V"))
+        data = open(f"{root}/flo/flow/frame_{direction}.flo", "rb").read()
+        assert struct.unpack("<f2i", data[:12]) == (202021.25, width, height)
+        pairs = np.frombuffer(data, "<f4", offset=12).reshape(height, width, 2)
+        known = occlusion != 3
+        assert (pairs[known][:, 0] == u[known]).all() and (pairs[known][:, 1] == v[known]).all()
+        assert (np.abs(pairs[~known]) > 1e9).all()
+    # KITTI's is forward: all whose place in the next frame is known, and those seen there.
+    occlusion, u, v = (plane(f"flow_fwd.{c}", "<f4") for c in ("occlusion", "U", "V"))
+    for folder, expected in (("flow_occ", occlusion != 3), ("flow_noc", occlusion == 0)):
+        values = png16(f"{root}/kitti/{folder}/frame.png")
+        valid = values[..., 2] == 1
+        assert (valid == expected).all()
+        assert np.abs((values[..., 0] - 2**15) / 64 - u)[valid].max() <= 1 / 128 + 1e-6
+        assert np.abs((values[..., 1] - 2**15) / 64 - v)[valid].max() <= 1 / 128 + 1e-6
+
+
+def murmur(text):
+    """MurmurHash3_x86_32 of seed 0, after Appleby's reference."""
+    data, h, mask = text.encode(), 0, 0xffffffff
+
+    def mix(k):
+        k = k * 0xcc9e2d51 & mask
+        return ((k << 15 | k >> 17) & mask) * 0x1b873593 & mask
+
+    whole = len(data) // 4 * 4
+    for i in range(0, whole, 4):
+        h ^= mix(struct.unpack("<I", data[i:i + 4])[0])
+        h = ((h << 13 | h >> 19) & mask) * 5 + 0xe6546b64 & mask
+    if len(data) > whole:
+        h ^= mix(int.from_bytes(data[whole:], "little"))
+    h ^= len(data)
+    h = (h ^ h >> 16) * 0x85ebca6b & mask
+    h = (h ^ h >> 13) * 0xc2b2ae35 & mask
+    h ^= h >> 16
+    exponent = h >> 23 & 255
+    return h ^ (1 << 23) if exponent in (0, 255) else h
+
+
+def exr():
+    try:
+        import OpenImageIO
+    except ImportError:
+        print("skipped: frame.exr itself; apt-get install python3-openimageio")
+        return
+    file = OpenImageIO.ImageInput.open(f"{root}/frame.exr")
+    spec = file.spec()
+    channels = list(spec.channelnames)
+
+    def channel(name, kind="float"):
+        at = channels.index(name)
+        values = file.read_scanlines(0, height, 0, at, at + 1, kind)
+        return np.asarray(values).reshape(shape)
+
+    assert (channel("instance.ID", "uint") == ids).all() and (channel("Z") == z).all()
+    near = np.isfinite(z)
+    classes = {o["class_id"] for o in frame["objects"]} | {23}
+    assert set(np.unique(channel("semantic.ID", "uint"))) <= classes
+    assert (channel("semantic.ID", "uint") == mapped(CITYSCAPES, 0)).all()
+    # Positions are what depth, intrinsics and pose say.
+    pose, k = np.array(frame["camera"]["world_from_camera"]), np.array(frame["camera"]["intrinsics"])
+    y, x = np.mgrid[0:height, 0:width] + 0.5
+    way = np.stack([(x - k[0][2]) / k[0][0], -(y - k[1][2]) / k[1][1], -np.ones(shape)], -1)
+    np.seterr(invalid="ignore")  # of the sky, which is infinitely far away
+    world = (way * z[..., None]) @ pose[:3, :3].T + pose[:3, 3]
+    position = np.stack([channel("position." + c) for c in "XYZ"], -1)
+    assert np.abs(position - world)[near].max() < 1e-3 and np.isinf(position[~near]).all()
+    distance = channel("distance.Y")
+    assert np.abs(distance / z - np.linalg.norm(way, axis=-1))[near].max() < 1e-5
+    normal = np.stack([channel("N." + c) for c in "XYZ"], -1)
+    assert np.abs(np.linalg.norm(normal, axis=-1) - 1)[near].max() < 1e-5
+    assert ((normal * (pose[:3, 3] - position)).sum(-1)[near] > -1e-3).all()
+    # Mattes: names of the manifests have the hashes of the specification, and samples show what the centre does.
+    attributes = {a.name: a.value for a in spec.extra_attribs}
+    layers = {v: n.rsplit("/", 1)[0] for n, v in attributes.items() if n.startswith("cryptomatte/") and n.endswith("/name")}
+    assert {"CryptoObject", "CryptoMaterial"} < set(layers) and any("Rain" in name for name in layers)
+    for name, key in layers.items():
+        assert key == "cryptomatte/%07x" % (murmur(name) >> 4)  # seven digits of the name's hash
+        assert attributes[key + "/hash"] == "MurmurHash3_32"
+        manifest = json.loads(attributes[key + "/manifest"])
+        for entry, value in manifest.items():
+            assert int(value, 16) == murmur(entry), entry
+        first = name + "00.R"  # rank by rank: name in R and B, its share in G and A
+        ranks = sorted({c[len(name):len(name) + 2] for c in channels if c.startswith(name) and c[-2] == "."})
+        coverage = sum(channel(f"{name}{rank}.{c}") for rank in ranks for c in "GA")
+        assert coverage.max() < 1 + 1e-5 and coverage.min() >= 0
+        shown = channel(first).view("<u4")
+        assert set(np.unique(shown)) <= {int(v, 16) for v in manifest.values()} | {0}
+        if name == "CryptoObject":
+            expected = np.zeros(shape, "<u4")
+            for number, entry in objects.items():
+                expected[ids == number] = murmur(entry["name"])
+            assert (shown == expected).mean() > 0.9  # edges have one or the other
+
+
+for check in (cityscapes, carla, coco, kitti, flow, exr):
     check()
     print(check.__name__, "reads")

@@ -13,6 +13,20 @@ Json numbers(Vec3d v) {
     return {v.x, v.y, v.z};
 }
 
+/// Rows of the matrix, for points in the file's coordinates.
+Json matrix(const Transform& in_scene, Vec3d origin) {
+    const Transform t = translate(origin) * in_scene * translate(origin * -1.0);
+    Json rows = Json::array();
+    for (int r = 0; r < 3; ++r)
+        for (const Vec3d& column : {t.column_x, t.column_y, t.column_z, t.translation}) rows.push_back(column[r]);
+    return rows;
+}
+
+void add_motion(Json& j, const char* key, const ObjectMotion& motion, Vec3d origin) {
+    if (!motion.moves || motion.bends) return;
+    for (const Transform& part : motion.parts) j[key].push_back(matrix(part, origin));
+}
+
 void add_extent(Json& j, const ObjectExtent& extent, int64_t visible, const View& view, Vec3d origin) {
     const PixelBox& p = extent.projected;
     const double inside = intersection(p, {0, 0, double(view.width), double(view.height)}).area();
@@ -52,7 +66,11 @@ const SeenObject* SeenObjects::find(uint32_t id) const {
 }
 
 Json objects_json(const SceneObjects& objects, const SeenObjects& seen, const std::vector<ObjectExtent>& extents,
-                  const std::vector<bool>& moving, const View& view, Vec3d origin) {
+                  const ObjectMotions& motions, const View& view, Vec3d origin) {
+    const bool any = !motions.next.empty() || !motions.previous.empty();
+    const auto motion = [](const std::vector<ObjectMotion>& list, size_t i) {
+        return list.empty() ? ObjectMotion() : list[i];
+    };
     Json list = Json::array();
     for (size_t i = 0; i < objects.objects.size(); ++i) {
         const LabelObject& object = objects.objects[i];
@@ -63,7 +81,11 @@ Json objects_json(const SceneObjects& objects, const SeenObjects& seen, const st
         j["class"] = taxonomy()[size_t(object.class_id)].name, j["class_id"] = object.class_id;
         if (!object.unknown_class.empty()) j["unknown_class"] = object.unknown_class;
         j["number"] = object.number, j["index"] = i;
-        if (!moving.empty()) j["moves"] = bool(moving[i]);
+        if (any) {
+            const ObjectMotion next = motion(motions.next, i), previous = motion(motions.previous, i);
+            j["moves"] = next.moves || previous.moves;
+            add_motion(j, "motion_next", next, origin), add_motion(j, "motion_previous", previous, origin);
+        }
         j["visible_pixels"] = visible ? visible->pixels : 0;
         if (visible) j["box"] = {visible->left, visible->top, visible->right, visible->bottom};
         if (!extents.empty()) add_extent(j, extents[i], visible ? visible->pixels : 0, view, origin);
@@ -74,10 +96,12 @@ Json objects_json(const SceneObjects& objects, const SeenObjects& seen, const st
 
 namespace {
 
+bool same_shape(const Scene& now, const Scene& then, size_t i) {
+    return now.meshes[size_t(now.instances[i].mesh)].positions == then.meshes[size_t(then.instances[i].mesh)].positions;
+}
+
 bool stays(const Scene& now, const Scene& then, size_t i) {
-    const Instance &a = now.instances[i], &b = then.instances[i];
-    return a.scene_from_object == b.scene_from_object &&
-           now.meshes[size_t(a.mesh)].positions == then.meshes[size_t(b.mesh)].positions;
+    return now.instances[i].scene_from_object == then.instances[i].scene_from_object && same_shape(now, then, i);
 }
 
 }  // namespace
@@ -89,11 +113,19 @@ bool same_places(const Scene& a, const Scene& b) {
     return true;
 }
 
-std::vector<bool> moving_objects(const SceneObjects& objects, const Scene& now, const Scene& then) {
-    std::vector<bool> moving(objects.objects.size());
-    for (size_t i = 0; i < now.instances.size(); ++i)
-        if (!stays(now, then, i)) moving[size_t(objects.object_of_instance[i])] = true;
-    return moving;
+std::vector<ObjectMotion> object_motions(const SceneObjects& objects, const Scene& now, const Scene& then) {
+    std::vector<ObjectMotion> motions(objects.objects.size());
+    for (size_t i = 0; i < now.instances.size(); ++i) {
+        ObjectMotion& motion = motions[size_t(objects.object_of_instance[i])];
+        const Transform &from = now.instances[i].scene_from_object, &to = then.instances[i].scene_from_object;
+        motion.moves = motion.moves || !stays(now, then, i);
+        motion.bends = motion.bends || !same_shape(now, then, i) || from.determinant() == 0;
+        if (motion.bends) continue;
+        const Transform part = from == to ? Transform() : to * inverse(from);
+        if (std::find(motion.parts.begin(), motion.parts.end(), part) == motion.parts.end())
+            motion.parts.push_back(part);
+    }
+    return motions;
 }
 
 }  // namespace pluvia

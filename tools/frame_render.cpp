@@ -137,14 +137,12 @@ RenderedFrame render_to_file(FrameScene frame, const RenderOptions& options, con
         const View& view = result.header.view;
         const std::vector<ObjectExtent> extents =
             settings.labels.boxes ? object_extents(scene, *labels.objects, view) : std::vector<ObjectExtent>();
-        std::vector<bool> moving;
-        for (const auto& other : {frame.next, frame.previous}) {
-            if (!other || other->instances.empty()) continue;
-            const std::vector<bool> found = moving_objects(*labels.objects, scene, *other);
-            moving.resize(found.size());
-            for (size_t i = 0; i < found.size(); ++i) moving[i] = moving[i] || found[i];
-        }
-        result.objects = objects_json(*labels.objects, seen, extents, moving, view, scene.origin);
+        const auto motions = [&](const std::shared_ptr<const Scene>& other) {
+            return !other || other->instances.empty() ? std::vector<ObjectMotion>()
+                                                      : object_motions(*labels.objects, scene, *other);
+        };
+        result.objects = objects_json(*labels.objects, seen, extents, {motions(frame.next), motions(frame.previous)},
+                                      view, scene.origin);
     }
     return result;
 }

@@ -57,8 +57,8 @@ void add_scenes_command(CLI::App& app) {
     command->add_option("name", options->names, "scenes to write; default: all");
     command->add_option("-o,--output", options->output, "folder")->capture_default_str();
     command->add_flag("--traffic", options->traffic,
-                      "as NAME-traffic.glb: with people who walk and, where there is a carriageway, cars and a camera "
-                      "that drive, for 12 s");
+                      "as NAME-traffic.glb: for 100 s with people who walk, cars where there is a carriageway, and a "
+                      "camera \"drive\" that goes round with them");
     command->add_flag("--list", options->list, "list the scenes");
     command->footer("Example:\n  pluvia scenes lane -o out");
     command->callback([options] { scenes_command(*options); });

@@ -44,7 +44,7 @@ Scene load_gltf(const std::string& path, const GltfSettings& settings = {}, Gltf
 
 /// How a node moves: straight and turning evenly from key to key, at rest before the first and after the last.
 struct NodeMotion {
-    std::string path;          // of the instances that move
+    std::string path;          // of the instances that move, or the name of a camera that does
     std::string object;        // path of a node above, which gets their class: all that moves below it is one object;
                                // empty: the node itself is one
     std::vector<float> times;  // seconds, rising

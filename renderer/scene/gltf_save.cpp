@@ -228,6 +228,8 @@ private:
         const int input = add_times(motion.times);
         for (const auto& [values, components, path] :
              {std::tuple{&positions, 3, "translation"}, {&rotations, 4, "rotation"}}) {
+            // What never turns keeps the rotation of its node.
+            if (components == 4 && std::equal(values->begin() + components, values->end(), values->begin())) continue;
             tinygltf::AnimationSampler sampler;
             sampler.input = input;
             sampler.output = add_floats(*values, components, 0);
@@ -293,35 +295,25 @@ private:
         tinygltf::Node node;
         node.name = camera.name;
         node.camera = int(model_.cameras.size()) - 1;
-        if (camera.path.empty()) {
+        const auto motion = motions_.find(camera.name);
+        if (motion == motions_.end() && camera.path.empty()) {
             node.matrix = matrix_of(in_file(camera.scene_from_camera));
             add_node(node, -1);
             return;
         }
         place_rigidly(node, camera.scene_from_camera);
-        add_path(camera, add_node(node, -1));
+        add_motion(motion != motions_.end() ? *motion->second : motion_along(camera), add_node(node, -1));
     }
 
-    void add_path(const Camera& camera, int node) {
-        std::vector<float> times, positions;
+    /// Along its path, without turning.
+    static NodeMotion motion_along(const Camera& camera) {
+        NodeMotion motion{camera.name, "", {}, {}};
         for (const CameraKey& key : camera.path) {
-            const Vec3d p = key.position + scene_.origin;
-            times.push_back(key.time);
-            positions.insert(positions.end(), {float(p.x), float(p.y), float(p.z)});
+            motion.times.push_back(key.time);
+            motion.scene_from_object.push_back(camera.scene_from_camera);
+            motion.scene_from_object.back().translation = key.position;
         }
-        tinygltf::AnimationSampler sampler;
-        sampler.input = add_times(times);
-        sampler.output = add_floats(positions, 3, 0);
-        sampler.interpolation = "LINEAR";
-        tinygltf::AnimationChannel channel;
-        channel.sampler = 0;
-        channel.target_node = node;
-        channel.target_path = "translation";
-        tinygltf::Animation entry;
-        entry.name = camera.name;
-        entry.samplers = {sampler};
-        entry.channels = {channel};
-        model_.animations.push_back(entry);
+        return motion;
     }
 
     Transform in_file(Transform scene_from_object) const {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace pluvia {
 namespace {
@@ -116,19 +117,54 @@ private:
         return view_.position + view_.world_vector_from_view(Vec3d(seen) * double(z));
     }
 
+    /// Rows of matrices as frame.json has them: where the parts of an object go.
+    struct Motion {
+        double m[12];
+        Vec3d operator()(Vec3d p) const {
+            const auto row = [&](int r) {
+                return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3];
+            };
+            return {row(0), row(1), row(2)};
+        }
+    };
+    /// Per object; empty for what rests, and for what bends.
+    std::vector<std::vector<Motion>> motions(const std::string& key) const {
+        std::vector<std::vector<Motion>> list(frame_.objects.size());
+        for (size_t i = 0; i < list.size(); ++i) {
+            if (!frame_.objects[i].json.contains(key)) continue;
+            for (const Json& part : frame_.objects[i].json.at(key)) {
+                Motion& motion = list[i].emplace_back();
+                for (size_t k = 0; k < 12; ++k) motion.m[k] = part.at(k).get<double>();
+            }
+        }
+        return list;
+    }
+
     void check_flow(const std::string& layer, const View& other) {
         const std::vector<float> z = frame_.values("Z"), u = frame_.values(layer + ".U"),
                                  v = frame_.values(layer + ".V"), occlusion = frame_.values(layer + ".occlusion");
+        const auto moved = motions(layer == "flow_fwd" ? "motion_next" : "motion_previous");
         int64_t wrong = 0;
         for (size_t i = 0; i < z.size(); ++i) {
             if (std::isinf(z[i]) || occlusion[i] != float(FlowVisibility::visible)) continue;
             const int object = ids_.empty() ? -1 : frame_.object_of(ids_[i]);
-            if (object >= 0 && frame_.objects[size_t(object)].moves) continue;
-            const Vec3d there = other.view_from_world(point(i, z[i]));
-            const double s = other.focal_pixels / there.z;
-            const double x = frame_.width / 2.0 + there.x * s, y = frame_.height / 2.0 - there.y * s;
-            const double error = std::hypot(x - x_of(i) - 0.5 - u[i], y - y_of(i) - 0.5 - v[i]);
-            ++result_.flow_pixels;
+            const bool moves = object >= 0 && frame_.objects[size_t(object)].moves;
+            if (moves && moved[size_t(object)].empty()) {
+                ++result_.bending_pixels;
+                continue;
+            }
+            const Vec3d here = point(i, z[i]);
+            const auto error_at = [&](Vec3d then) {
+                const Vec3d there = other.view_from_world(then);
+                const double s = other.focal_pixels / there.z;
+                const double x = frame_.width / 2.0 + there.x * s, y = frame_.height / 2.0 - there.y * s;
+                return std::hypot(x - x_of(i) - 0.5 - u[i], y - y_of(i) - 0.5 - v[i]);
+            };
+            // Ids do not tell a body from its legs: one of its parts must have gone there.
+            double error = moves ? std::numeric_limits<double>::quiet_NaN() : error_at(here);
+            if (moves)
+                for (const Motion& motion : moved[size_t(object)]) error = std::fmin(error, error_at(motion(here)));
+            ++result_.flow_pixels, result_.moving_pixels += moves;
             if (!(error <= result_.largest_flow_error)) result_.largest_flow_error = error;  // NaN stays
             if (!(error < flow_tolerance) && wrong++ == 0)
                 fault(

@@ -15,12 +15,15 @@ struct LabelCheck {
     std::vector<std::string> faults;
     int64_t labelled_pixels = 0;    // whose class was compared with that of their instance
     int64_t boxes = 0;              // compared with the pixels of their objects
-    int64_t flow_pixels = 0;        // compared with depth and poses; those of objects that move are left out
+    int64_t flow_pixels = 0;        // compared with depth, poses and motions of objects
+    int64_t moving_pixels = 0;      // of these, those of objects that move
+    int64_t bending_pixels = 0;     // left out: their objects bend, as skins do, or say no motion
     double largest_flow_error = 0;  // pixels
 };
 
 /// Checks what the frame has: that the class of every pixel is that of its instance; that boxes hug the pixels of their
-/// objects, and 3D boxes hold the points that these show; that flow of what rests agrees with depth and poses.
+/// objects, and 3D boxes hold the points that these show; that flow agrees with depth, poses and the
+/// motions of objects.
 /// Throws Error (input) where a file is broken.
 LabelCheck check_labels(LabelFrame& frame);
 
