@@ -79,7 +79,7 @@ TEST_CASE("frames of hri.yaml are whole tiles, spread over 24 hours at equal ste
     CHECK(seeds.size() == items.size());
     CHECK(items[3].id() == "lane/front/frame_0003");
     CHECK(items[3].clean_path("background", "jpg") == "clean/lane/front/background/frame_0003.jpg");
-    CHECK(items[3].rainy_path(25, "rain_layer", "png") == "rainy/lane/front/25mm/wind_2/rain_layer/frame_0003.png");
+    CHECK(items[3].rainy_path(25, "rain_layer", "png") == "rainy/lane/front/25mm/wind_0.5/rain_layer/frame_0003.png");
 }
 
 TEST_CASE("every configuration that comes with Pluvia is valid, and the template has every key of its own") {
