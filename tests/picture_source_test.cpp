@@ -193,7 +193,8 @@ TEST_CASE("rain leaves the picture and its layers add up to the rainy one") {
         for (int x = 0; x < 48; ++x) source.radiance.at(x, y) = Rgb(float(x), float(y), 7);
     const Picture picture = augment_picture(source, view, rainy(8));
     for (size_t i = 0; i < source.z.pixels.size(); ++i) {
-        CHECK(picture.plane("background.R")[i] == doctest::Approx(source.radiance.pixels[i].r).epsilon(1e-6).scale(1e-20));
+        CHECK(picture.plane("background.R")[i] ==
+              doctest::Approx(source.radiance.pixels[i].r).epsilon(1e-6).scale(1e-20));
         CHECK(picture.plane("Z")[i] == doctest::Approx(30).epsilon(1e-6));
         const float sum = picture.plane("background.G")[i] * picture.plane("transmittance_100.G")[i] +
                           picture.plane("rain_100.G")[i] + picture.plane("inscatter_100.G")[i];

@@ -252,7 +252,8 @@ OIIO::ImageSpec png_spec(int width, int height, int channels, int bits) {
     spec["oiio:UnassociatedAlpha"] = 1;
     // Measured on a noisy picture of 2048 x 1024: level 2 takes 0.14 s, the library's 6 takes 0.34 s and saves 3 %.
     spec["png:compressionLevel"] = 2;
-    // Each row as its difference from the one above: a quarter less time than a search among all filters, and no larger.
+    // Each row as its difference from the one above: a quarter less time than a search among all filters, and no
+    // larger.
     spec["png:filter"] = 32;
     return spec;
 }
