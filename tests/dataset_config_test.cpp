@@ -122,6 +122,13 @@ TEST_CASE("a mistake in a configuration is answered with its line and what to wr
     says("rain: [10]\nname: a/b\n" + scenes, "2", "name of a folder");
 }
 
+TEST_CASE("a folder in place of a configuration is said to be one") {
+    const TemporaryFolder folder;
+    const Outcome run = run_program("dataset plan " + folder.path() + " -o " + (folder / "out"));
+    CHECK(run.exit_code == 3);
+    CHECK(run.err == "pluvia: error: " + folder.path() + ": is a folder (expected a YAML file)\n");
+}
+
 TEST_CASE("a word far from all others is not a misspelling of one") {
     CHECK(nearest_word("weathr", {"wind", "weather", "winds"}) == "weather");
     CHECK(nearest_word("xyzzy", {"wind", "weather", "winds"}).empty());

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -68,6 +69,7 @@ ConfigNode converted(const YAML::Node& node, const std::string& path, int depth,
 ConfigNode read_config_tree(const std::string& path) {
     std::ifstream file(path);
     if (!file) throw input_error(path, fmt::format("cannot be opened ({})", std::strerror(errno)));
+    if (std::filesystem::is_directory(path)) throw input_error(path, "is a folder (expected a YAML file)");
     try {
         const std::string text(std::istreambuf_iterator<char>(file), {});
         size_t left = max_size(text.size());
