@@ -192,7 +192,7 @@ size_t held_triangles(const Scene& scene) {
 
 RayScene::RayScene(const Scene& scene) : scene_(&scene), embree_(std::make_unique<Embree>()) {
     Embree& e = *embree_;
-    e.device = rtcNewDevice(nullptr);
+    e.device = rtcNewDevice("hugepages=1");
     if (!e.device) throw Error(ExitCode::render_failed, "Embree", "cannot start");
 
     const auto uses = uses_of_meshes(scene);

@@ -48,11 +48,25 @@ Anisotropy anisotropy_at(const Scene& scene, const Material& material, const Pla
     return result;
 }
 
+// Scenes are larger than caches, and each of these is on its way while something else is computed.
+void prefetch_corners(const Material& material, const Triangle& t) {
+    t.prefetch(t.mesh.positions);
+    t.prefetch(t.mesh.normals);
+    t.prefetch(t.mesh.uvs);
+    if (material.normal_texture.used()) t.prefetch(t.mesh.tangents);
+}
+void prefetch_textures(const Scene& scene, const Material& material, const Triangle& t) {
+    for (const TextureSlot* slot :
+         {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture})
+        if (slot->used()) prefetch_texels(scene, slot->texture, t.uv(*slot));
+}
+
 }  // namespace
 
 Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 direction, float u, Counters& counters) {
     const Triangle t(scene, point);
     const Material& material = scene.materials[t.mesh.material];
+    prefetch_corners(material, t);
     const Transform& scene_from_object = scene.instances[point.instance].scene_from_object;
     const Vec3 p0 = t.mesh.positions[t.corner[0]], p1 = t.mesh.positions[t.corner[1]],
                p2 = t.mesh.positions[t.corner[2]];
@@ -63,6 +77,7 @@ Surface evaluate_surface(const Scene& scene, const SurfacePoint& point, Vec3 dir
     s.geometric_normal = Vec3(normalize(scene_from_object.normal(cross(Vec3d(p1 - p0), Vec3d(p2 - p0)))));
     const auto squared_length = [&](Vec3 edge) { return length_squared(scene_from_object.vector(Vec3d(edge))); };
     s.extent = float(std::sqrt(std::max({squared_length(p1 - p0), squared_length(p2 - p0), squared_length(p2 - p1)})));
+    prefetch_textures(scene, material, t);
     const bool mirrored = scene_from_object.determinant() < 0;  // then the winding of the front is reversed
     s.from_front = (dot(s.geometric_normal, direction) < 0) != mirrored;
     if (dot(s.geometric_normal, direction) > 0) s.geometric_normal = -s.geometric_normal;

@@ -11,5 +11,7 @@ Rgb lookup_color(const Scene& scene, int texture, Vec2 uv);
 Vec3 lookup_linear(const Scene& scene, int texture, Vec2 uv);
 /// The stored alpha, 0 to 1.
 float lookup_alpha(const Scene& scene, int texture, Vec2 uv);
+/// Asks for the texels of a look-up that is to come, so that several are on their way from memory at once.
+void prefetch_texels(const Scene& scene, int texture, Vec2 uv);
 
 }  // namespace pluvia

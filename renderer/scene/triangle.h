@@ -23,6 +23,12 @@ struct Triangle {
     T interpolate(const std::vector<T>& values) const {
         return values[corner[0]] * b0 + values[corner[1]] * b1 + values[corner[2]] * b2;
     }
+    /// Asks for values of interpolate() that are to come.
+    template <class T>
+    void prefetch(const std::vector<T>& values) const {
+        if (values.empty()) return;
+        for (const uint32_t i : corner) __builtin_prefetch(&values[i]);
+    }
     /// The zero vector where the mesh lacks the set.
     const std::vector<Vec2>& uv_set(const TextureSlot& slot) const { return slot.uv_set == 0 ? mesh.uvs : mesh.uvs1; }
     Vec2 uv(const TextureSlot& slot) const {
