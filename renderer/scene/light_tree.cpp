@@ -23,14 +23,13 @@ LightTree::Lanes LightTree::importances(const Node& n, const Receiver& receiver)
         const float x = receiver.position.x - n.centre_x[i], y = receiver.position.y - n.centre_y[i],
                     z = receiver.position.z - n.centre_z[i];
         const float distance_squared = x * x + y * y + z * z;
-        // Inside and near the bounds 1/d2 means nothing: the box's own size takes over.
-        const float reach_squared = std::max(std::max(distance_squared, n.radius_squared[i]), 1e-12f);
-        const float arriving = n.power[i] / reach_squared;
+        // Inside and near the bounds 1/d2 means nothing: the box's own size takes over, and angles do not count.
+        const float inverse_square = 1 / std::max(std::max(distance_squared, n.radius_squared[i]), 1e-12f);
+        const float arriving = n.power[i] * inverse_square, inverse_distance = std::sqrt(inverse_square);
 
-        const float inverse_distance = 1 / std::sqrt(std::max(distance_squared, 1e-30f));
         // Cone under which the bounds are seen, as a half angle around the direction to the receiver.
-        const float sin_seen_squared = n.radius_squared[i] / reach_squared;
-        const float sin_seen = std::sqrt(sin_seen_squared), cos_seen = std::sqrt(1 - sin_seen_squared);
+        const float sin_seen_squared = n.radius_squared[i] * inverse_square;
+        const float sin_seen = std::sqrt(sin_seen_squared), cos_seen = std::sqrt(std::max(0.0f, 1 - sin_seen_squared));
 
         // Angle between axis and receiver, less the spread, less the cone: cos(max(0, a - b)), twice.
         const float cos_along = (n.axis_x[i] * x + n.axis_y[i] * y + n.axis_z[i] * z) * inverse_distance;
@@ -158,6 +157,13 @@ std::optional<LightTree::Choice> LightTree::choose(const Receiver& receiver, flo
     return choice.light < 0 ? std::nullopt : std::optional(choice);
 }
 
+/// Nodes are as large as several lines of the cache, and lie apart.
+template <class Node>
+static void prefetch(const Node& node) {
+    for (size_t line = 0; line < sizeof(Node); line += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(&node) + line);
+}
+
 void LightTree::choose(const Receiver& receiver, float u, std::span<Choice> choices) const {
     struct Part {
         int node;
@@ -185,18 +191,25 @@ void LightTree::choose(const Receiver& receiver, float u, std::span<Choice> choi
             if (importance[i] > 0) last = i;  // rounding may carry a number beyond the sum: then this one counts
         }
         if (!(total > 0)) continue;
-        int lane = 0;
-        for (size_t i = part.begin; i < part.end;) {
-            while (lane < last && numbers[i] * total >= below[lane + 1]) ++lane;
-            const size_t first = i;
-            const float share = importance[lane] / total;
-            for (; i < part.end && (lane == last || numbers[i] * total < below[lane + 1]); ++i) {
-                // What is left of the number decides within the child.
-                numbers[i] = std::clamp((numbers[i] * total - below[lane]) / importance[lane], 0.0f, 0x1.fffffep-1f);
-                choices[i].probability *= share;
-                if (node.child[lane] < 0) choices[i].light = ~node.child[lane];
+        const float inverse_total = 1 / total;
+        const size_t open_parts = part_count;
+        for (size_t i = part.begin; i < part.end; ++i) {
+            const float number = numbers[i] * total;
+            int lane = 0;
+            for (int k = 1; k < width; ++k) lane += number >= below[k];
+            lane = std::min(lane, last);
+            // What is left of the number decides within the child.
+            numbers[i] = std::clamp((number - below[lane]) / importance[lane], 0.0f, 0x1.fffffep-1f);
+            choices[i].probability *= importance[lane] * inverse_total;
+            const int child = node.child[lane];
+            if (child < 0)
+                choices[i].light = ~child;
+            else if (part_count > open_parts && parts[part_count - 1].node == child)
+                parts[part_count - 1].end = i + 1;
+            else {
+                parts[part_count++] = {child, i, i + 1};
+                prefetch(nodes_[child]);
             }
-            if (node.child[lane] >= 0) parts[part_count++] = {node.child[lane], first, i};
         }
     }
 }
@@ -210,7 +223,7 @@ float LightTree::probability(const Receiver& receiver, int light) const {
         const Lanes importance = importances(node, receiver);
         const float total = sum(importance);
         if (!(total > 0)) return 0;
-        probability *= importance[lane] / total;
+        probability *= importance[lane] * (1 / total);
         index = node.parent, lane = node.place_in_parent;
     }
     return probability;
