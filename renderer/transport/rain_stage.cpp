@@ -13,6 +13,10 @@ namespace {
 // Keep the random numbers of streaks and medium apart from each other and from those of paths.
 constexpr uint64_t rain_domain = 0x7261696e, medium_domain = 0x6d656469;
 
+// Where neither lamps nor a sun can make it glint, light of a drop that is looked into is taken to be at most this many
+// times that of its pixel when it is decided for how many samples it is found: what it shows is costly to find.
+constexpr float most_brightness = 4;
+
 constexpr float lamp_reach = 200;  // metres within which lamps are looked for; farther ones are found less often
 
 }  // namespace
@@ -235,13 +239,20 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
                             float most) const {
     counters.count(Feature::streak_hit);
     const Sampler sampler = streak_sampler(hit, pixel_sampler);
+    const float choice = sampler.get_1d(Draw::streak_choice);
+    const Lights& lights = tracer_->lights();
+    if (!lights.has_local() && !lights.has_sun() && settings_.composition == Composition::physical &&
+        shows_picture(hit, sampler))
+        most = std::min(most, worth(hit.covered.fraction() * most_brightness * segment.background_luminance, segment,
+                                    settings_.streak_roulette));
+    if (!(most >= 1) && choice >= most) return Rgb(0);
     const ScatterFunction function = streak_scatter(hit, segment, sampler);
     const ScatteredLight event(*tracer_, function, segment.ray.at(hit.covered.distance), distant, sampler);
     // What the light could bring beside the background. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
     const float q = std::min(most, worth(streak_weight(hit, segment) * brightness, segment, settings_.streak_roulette));
-    if (!(q >= 1) && sampler.get_1d(Draw::streak_choice) >= q) return Rgb(0);
+    if (!(q >= 1) && choice >= q) return Rgb(0);
     counters.count(Feature::streak_path);
     const Rgb light = event.trace(segment.background_luminance, counters);
     return q >= 1 ? light : light / q;
