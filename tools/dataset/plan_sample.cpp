@@ -33,10 +33,10 @@ const DatasetItem& chosen_frame(const DatasetScene& scene, const std::vector<con
 
 std::map<size_t, FrameCost> measure_frame_costs(const DatasetConfig& config, const std::vector<size_t>& scenes,
                                                 const std::string& scratch, Progress& progress) {
-    constexpr size_t all_frames = 48, least_frames = 2;
+    constexpr size_t all_frames = 48, least_frames = 2, most_frames = 8;
     std::map<size_t, FrameCost> costs;
     if (scenes.empty()) return costs;
-    const size_t of_scene = std::max(least_frames, all_frames / scenes.size());
+    const size_t of_scene = std::clamp(all_frames / scenes.size(), least_frames, most_frames);
     const std::vector<DatasetItem> all = dataset_items(config);
     std::vector<std::vector<const DatasetItem*>> items(config.scenes.size());
     for (const DatasetItem& item : all) items[item.scene].push_back(&item);
