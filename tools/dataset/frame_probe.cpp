@@ -64,9 +64,10 @@ TracingCost probe_tracing(const DatasetItem& item, const FrameScene& scene, cons
 
 FilesCost probe_files(const DatasetItem& item, const PictureFormat& pictures, const FrameScene& scene,
                       const std::string& folder, const ProgressCallback& progress) {
-    constexpr double most_pixels = 1 << 17;
+    constexpr double most_pixels = 1 << 15;
+    constexpr int most_samples = 4;  // with one, layers of rain are nothing in most pixels, and files too small
     DatasetItem small = item;
-    small.options.spp = 1;
+    small.options.spp = std::min(item.options.spp, most_samples);
     small.options.target_error.reset();
     const CameraSettings full = camera_settings(item.options);
     const double pixels = double(full.width) * full.height, shrink = std::min(1.0, std::sqrt(most_pixels / pixels));
@@ -84,7 +85,7 @@ FilesCost probe_files(const DatasetItem& item, const PictureFormat& pictures, co
     display.text = display_text(frame);
     const ItemFiles files = write_item_files(folder, exr, small, pictures, frame, display);
     const double scale = pixels / (double(width) * height);
-    FilesCost cost{(spent_time() - *start) * scale, 0};
+    FilesCost cost{(spent_time() - *start) * scale, small.options.spp, 0};
     for (const StoredFile& file : files.files) cost.bytes += scale * double(fs::file_size(file.temporary));
     for (const auto& entry : fs::directory_iterator(folder)) fs::remove_all(entry.path());
     return cost;

@@ -19,10 +19,11 @@ struct TracingCost {
 TracingCost probe_tracing(const DatasetItem& item, const FrameScene& scene, const std::string& folder);
 
 struct FilesCost {
-    SpentTime time;  // from the first ray on: one sample and labels of all pixels, and all files
+    SpentTime time;   // from the first ray on: samples and labels of all pixels, and all files
+    int samples = 0;  // per pixel
     double bytes = 0;
 };
-/// Makes the frame's files as a small picture. Bytes are an upper bound: its noise is that of few samples.
+/// Makes the frame's files as a small picture of few samples, whose time and bytes grow with the pixels.
 /// folder: an empty one, left empty. progress: of its rendering.
 FilesCost probe_files(const DatasetItem& item, const PictureFormat& pictures, const FrameScene& scene,
                       const std::string& folder, const ProgressCallback& progress);

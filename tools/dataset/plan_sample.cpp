@@ -64,7 +64,7 @@ std::map<size_t, FrameCost> measure_frame_costs(const DatasetConfig& config, con
                 if (n == 0) {
                     const FilesCost files = probe_files(item, config.pictures, scene, folder, go_on);
                     const SpentTime load = scene.is_animated ? source.load_time() : SpentTime();
-                    cost.time = cost.time + files.time - tracing.sample + load;
+                    cost.time = cost.time + files.time - tracing.sample * files.samples + load;
                     cost.bytes = files.bytes;
                     if (item.is_sequence && item.options.exposure == "auto") {
                         const double frames = config.scenes[s].frames;
