@@ -1,5 +1,7 @@
 #include "scenes/car.h"
 
+#include "scenes/car_lamps.h"
+#include "scenes/car_outline.h"
 #include "scenes/characters.h"
 #include "scenes/materials.h"
 #include "scenes/noise.h"
@@ -14,10 +16,10 @@ namespace {
 
 constexpr float wheel_radius = 0.32f, arch_radius = 0.385f, floor_height = 0.2f;
 
-class CarBuilder {
+class CarBuilder : CarOutline {
 public:
     CarBuilder(Palette& palette, const CarShape& shape, const std::string& paint)
-        : p_(palette), c_(shape), paint_(palette(paint)) {}
+        : CarOutline(shape), p_(palette), paint_(palette(paint)) {}
 
     Assembly build() {
         body();
@@ -29,24 +31,8 @@ public:
     }
 
 private:
-    float front() const { return 0.5f * c_.length; }
     float axle(bool is_front) const { return is_front ? front() - 0.86f : -front() + 0.92f; }
 
-    /// 1 in the middle of the car, less towards its ends, where the plan is rounded.
-    float rounding(float z) const {
-        const float from_end = front() - std::abs(z), radius = 0.5f;
-        if (from_end > radius) return 1;
-        const float u = 1 - std::max(from_end, 0.0f) / radius;
-        return 1 - 0.2f * u * u * u;
-    }
-    /// Height of the upper edge of the body's sides.
-    float belt(float z) const {
-        const float middle = 0.5f * (c_.bonnet + c_.boot);
-        float y = z > 0 ? std::lerp(middle, c_.bonnet - 0.06f, smooth_step(0.2f, front() - 0.5f, z))
-                        : std::lerp(middle, c_.boot - 0.02f, smooth_step(0.2f, front() - 0.3f, -z));
-        const float nose = smooth_step(front() - 0.62f, front(), z), tail = smooth_step(front() - 0.22f, front(), -z);
-        return y - 0.2f * nose * nose - 0.1f * tail;
-    }
     float lower(float z) const {
         float y = floor_height + 0.06f * smooth_step(front() - 0.5f, front(), std::abs(z));
         for (const bool is_front : {true, false}) {
@@ -266,15 +252,20 @@ private:
             append(a_[paint_], shell,
                    translate(Vec3d(mirror + Vec3(out * 0.13f, 0.03f, 0.02f))) * scale({1.25, 0.85, 0.75}));
             // Lamps sit in the corners.
-            const float w = 0.5f * c_.width * rounding(front()) - 0.2f, y = belt(front()) - 0.06f;
+            const Vec3 head = head_lamp(out);
+            const float w = std::abs(head.x), y = head.y + 0.03f;
             Shape lens;
-            add_lathe(lens, {{0.17f, 0}, {0.16f, 0.04f}, {0.1f, 0.07f}, {0.001f, 0.08f}}, 18, {1, 0.2f});
+            add_lathe(lens, {{0.17f, 0}, {0.16f, 0.04f}, {0.1f, 0.07f}, {0.001f, lens_depth}}, 18, {1, 0.2f});
             constexpr Transform along_z = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}, {}};
-            append(a_[p_("head_lamp")], lens,
-                   translate({out * w, y - 0.03, front() - 0.02}) * scale({1.15, 0.55, 1}) * along_z);
+            append(a_[p_("head_lamp")], lens, translate(Vec3d(head)) * scale({1.15, 0.55, 1}) * along_z);
+            if (c_.lamps_on) {
+                Shape bulb;
+                add_lathe(bulb, {{0.05f, 0}, {0.035f, 0.012f}, {0.001f, 0.016f}}, 12, {1, 0.2f});
+                append(a_[head_lamp_glow(p_)], bulb, translate(Vec3d(head + Vec3(0, 0, lens_depth))) * along_z);
+            }
             append(a_[p_("amber_lamp")], lens,
                    translate({out * (w + 0.02), y - 0.26, front() - 0.0}) * scale({0.45, 0.2, 0.6}) * along_z);
-            append(a_[p_("tail_lamp")], lens,
+            append(a_[c_.lamps_on ? tail_lamp_glow(p_) : p_("tail_lamp")], lens,
                    translate({out * (w + 0.02), belt(-front()) - 0.1, -front() + 0.02}) * rotate_y(pi) *
                        scale({0.95, 0.7, 1}) * along_z);
         }
@@ -307,7 +298,6 @@ private:
     }
 
     Palette& p_;
-    const CarShape& c_;
     int paint_;
     Assembly a_;
 };

@@ -1,5 +1,5 @@
-// Parked cars: a body drawn over cross-sections, a cabin of dark glass with painted pillars, wheels and what is fixed
-// on.
+// Cars: a body drawn over cross-sections, a cabin of dark glass with painted pillars, wheels and what is fixed on.
+// Those that drive have their lamps on.
 #pragma once
 
 #include "scenes/palette.h"
@@ -12,6 +12,7 @@ struct CarShape {
     float cabin_front = 0.75f, cabin_rear = -1.75f;      // z of the feet of windscreen and rear window
     float roof_front = 0.0f, roof_rear = -1.05f;         // z of the roof's ends
     bool taxi_sign = false;
+    bool lamps_on = false;  // see car_lamps.h
 };
 CarShape saloon();
 CarShape hatchback();

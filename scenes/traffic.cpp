@@ -1,6 +1,7 @@
 #include "scenes/traffic.h"
 
 #include "scenes/car.h"
+#include "scenes/car_lamps.h"
 #include "scenes/person.h"
 #include "scenes/route.h"
 #include "scenes/traffic_rooms.h"
@@ -57,11 +58,22 @@ private:
             const double start = route.period() * k / (track.count + 1) + chance_(-0.4f, 0.4f);
             CarShape shape = k % 3 == 0 ? hatchback() : k % 3 == 1 ? saloon() : estate();
             if (room_.small_cars) shape = narrow(shape);
+            shape.lamps_on = true;
             const std::string name = street_.scene.name + "/driving_" + std::to_string(k - 1);
             add_moving(name, "", "car", car(palette_, shape, paints[k % 5]), [&](double t) {
                 const RoutePlace at = route.at(start + t);
                 return placed(at.position, at.heading);
             });
+            add_beams(name, shape, motions_.back().scene_from_object[0]);
+        }
+    }
+
+    void add_beams(const std::string& path, const CarShape& shape, const Transform& scene_from_car) {
+        for (PunctualLight light : dipped_beams(shape)) {
+            light.name = path + "/" + light.name;
+            light.position = scene_from_car.point(light.position);
+            light.direction = Vec3(scene_from_car.vector(Vec3d(light.direction)));
+            street_.scene.lights.push_back(light);
         }
     }
 

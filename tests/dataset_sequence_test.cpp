@@ -76,7 +76,8 @@ TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of 
     const std::string path = std::string(PLUVIA_SOURCE_DIR) + "/scenes/extremerain.yaml";
     std::map<std::string, size_t> frames[2];  // by sequence
     std::set<std::string> streets[2];
-    std::map<std::string, std::set<double>> hours;  // by street
+    std::map<std::string, std::set<double>> hours;          // by street
+    std::map<std::string, std::vector<double>> rain, wind;  // by sequence
     double least = 1e9, most = 0, strongest = 0;
     for (const DatasetItem& item : dataset_items(read_dataset_config(path))) {
         ++frames[item.is_test][item.scene_name + "/" + item.camera];
@@ -89,8 +90,16 @@ TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of 
         // Streets run along z between houses, which keep away what is blown across.
         REQUIRE(std::abs(item.options.wind[0]) <= 0.5);
         strongest = std::max(strongest, std::hypot(item.options.wind[0], item.options.wind[2]));
+        rain[item.scene_name].push_back(item.options.rain[0]);
+        wind[item.scene_name].push_back(item.options.wind[2]);
     }
     CHECK(strongest > 4);
+    CHECK(strongest < 5);
+    for (const auto* courses : {&rain, &wind}) {
+        std::set<std::vector<double>> different;
+        for (const auto& [sequence, course] : *courses) different.insert(course);
+        CHECK(different.size() == 24);
+    }
     CHECK(frames[0].size() == 21);
     CHECK(frames[1].size() == 3);
     for (const auto& split : frames)
@@ -101,6 +110,27 @@ TEST_CASE("extremerain.yaml plans sequences of 1000 frames of one camera: 21 of 
     CHECK(streets[0].size() == 7);
     CHECK(streets[1].size() == 1);
     CHECK(!streets[0].contains(*streets[1].begin()));
+}
+
+TEST_CASE("a scene's own rain and wind over time count more than the dataset's, each by itself") {
+    const Sequences s;
+    const auto scene = [](const std::string& name, const std::string& more) {
+        return "  - scene: court.glb\n    name: " + name + "\n    frames: 4\n    train: [eye]\n" + more;
+    };
+    write_file(s.dataset.config_path(), over_time + ("scenes:\n" + scene("dataset", "") +
+                                                     scene("own",
+                                                           "    rain-over-time: [[0, 7], [2, 9]]\n"
+                                                           "    wind-over-time: [[0, 0, 0, -1]]\n") +
+                                                     scene("own-rain", "    rain-over-time: [[0, 5]]\n")));
+    const auto items = dataset_items(s.dataset.config());
+    REQUIRE(items.size() == 12);
+    CHECK(items[2].options.rain == std::vector<double>{80});
+    CHECK(items[2].options.wind == std::vector<double>{4, 0, -2});
+    CHECK(items[5].options.rain == std::vector<double>{8});
+    CHECK(items[5].options.wind == std::vector<double>{0, 0, -1});
+    CHECK(items[5].options.wind_travel[2] == doctest::Approx(-0.1));
+    CHECK(items[10].options.rain == std::vector<double>{5});
+    CHECK(items[10].options.wind == items[2].options.wind);
 }
 
 TEST_CASE("a sequence is made, proven, and written as a clip where ffmpeg is installed") {
@@ -152,9 +182,10 @@ TEST_CASE("clips of an unfinished sequence are refused") {
 }
 
 TEST_CASE("rain over time beside rain, out of order or out of range is refused with its line") {
-    const auto refused = [](const std::string& keys) {
+    const auto refused = [](const std::string& keys, const std::string& of_scene = "") {
         const Sequences s;
-        write_file(s.dataset.config_path(), keys + "scenes:\n  - scene: court.glb\n    frames: 4\n    train: [eye]\n");
+        write_file(s.dataset.config_path(),
+                   keys + "scenes:\n  - scene: court.glb\n    frames: 4\n    train: [eye]\n" + of_scene);
         const Outcome outcome = s.dataset.command("plan", "out", "--no-sample");
         CHECK(outcome.exit_code == 2);
         return outcome.err;
@@ -165,6 +196,17 @@ TEST_CASE("rain over time beside rain, out of order or out of range is refused w
     CHECK(refused("rain-over-time: [[0, 5000]]\n").find("0 to 1000 mm/h") != std::string::npos);
     CHECK(refused("rain-over-time: [5, 10]\n").find("has not 2 numbers") != std::string::npos);
     CHECK(refused("rain: [10]\nwind-over-time: [[0, 1, 0, 0]]\n").find("without rain-over-time") != std::string::npos);
+    const std::string over_time = "rain-over-time: [[0, 5]]\n", other = "  - scene: court.glb\n    name: other\n";
+    CHECK(refused(over_time, "    rain-over-tme: [[0, 5]]\n")
+              .find("court.yaml:6: there is no key \"rain-over-tme\"; did you mean rain-over-time?") !=
+          std::string::npos);
+    CHECK(refused(over_time, "    rain-over-time: [[0, -5]]\n").find("court.yaml:6: rain-over-time is out of range") !=
+          std::string::npos);
+    CHECK(refused(over_time, "    rain: [10]\n").find("both rain and rain-over-time") != std::string::npos);
+    CHECK(refused("rain: [10]\n", "    wind-over-time: [[0, 1, 0, 0]]\n").find("without rain-over-time") !=
+          std::string::npos);
+    CHECK(refused("", "    rain-over-time: [[0, 5]]\n" + other + "    frames: 1\n    train: [eye]\n    rain: [5]\n")
+              .find("others none") != std::string::npos);
 }
 
 }  // namespace pluvia

@@ -2,6 +2,7 @@
 #include "renderer/accel/ray_scene.h"
 #include "renderer/scene/gltf.h"
 #include "renderer/scene/label_objects.h"
+#include "renderer/scene/lamps.h"
 #include "renderer/scene/taxonomy.h"
 #include "scenes/builders.h"
 #include "scenes/route.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace pluvia {
 namespace {
@@ -76,6 +78,52 @@ TEST_CASE("people and cars of a street are objects that move through it, and not
         REQUIRE(instance.scene_from_object.translation.y + start.scene.origin.y < 1.1);
     }
     CHECK(moved > 40);
+}
+
+TEST_CASE("cars that drive have lamps that go with them and are off by day, and parked cars have none") {
+    const Busy busy;
+    const TemporaryFolder folder;
+    save_glb(busy.scene, folder / "a.glb", busy.motions);
+    Scene start = at(folder / "a.glb", 0).scene, later = at(folder / "a.glb", 2).scene;
+    const auto car_of = [](const Scene& scene, const std::string& path) {
+        const auto found = std::find_if(scene.instances.begin(), scene.instances.end(),
+                                        [&](const Instance& i) { return i.name == path; });
+        REQUIRE(found != scene.instances.end());
+        return found->scene_from_object;
+    };
+    REQUIRE(start.lights.size() == 11 * 4);
+    REQUIRE(later.lights.size() == start.lights.size());
+    for (size_t i = 0; i < start.lights.size(); ++i) {
+        const PunctualLight &now = start.lights[i], &then = later.lights[i];
+        const std::string path = now.name.substr(0, now.name.rfind('/'));
+        CAPTURE(now.name);
+        CHECK(now.lamp);
+        CHECK(length(then.position - now.position) > 3);
+        const Transform car_now = inverse(car_of(start, path)), car_then = inverse(car_of(later, path));
+        const Vec3d place = car_now.point(now.position), aim = car_now.vector(Vec3d(now.direction));
+        CHECK(length(place - car_then.point(then.position)) < 1e-5);  // a metre's rounding to single precision
+        CHECK(length(aim - car_then.vector(Vec3d(then.direction))) < 1e-5);
+        // At the nose of the car, shining forwards and down, on the side that the name says.
+        CHECK(place.z > 1.5);
+        CHECK(std::abs(place.x) > 0.3);
+        CHECK((place.x > 0) == (now.name.find("left") != std::string::npos));
+        CHECK(place.y > 0.5);
+        CHECK(aim.z > 0.9);
+        CHECK(aim.y < 0);
+    }
+    const auto shines = [](const Scene& scene, const std::string& kind) {
+        std::set<std::string> materials;
+        for (const Instance& instance : scene.instances) {
+            const Material& m = scene.materials[size_t(scene.meshes[size_t(instance.mesh)].material)];
+            if (instance.name.find(kind) != std::string::npos && m.emits()) materials.insert(m.name);
+        }
+        return materials;
+    };
+    CHECK(shines(start, "/driving_") == std::set<std::string>{"head_lamp_glow", "tail_lamp_glow"});
+    CHECK(shines(start, "/car_").empty());
+    switch_off_lamps(start);
+    CHECK(start.lights.empty());
+    CHECK(shines(start, "/driving_").empty());
 }
 
 TEST_CASE("legs swing about hips that go along with their body") {

@@ -42,7 +42,8 @@ struct GltfContents {
 /// Throws Error (input) naming the file and the node, accessor or image at fault, and (usage) for an unknown variant.
 Scene load_gltf(const std::string& path, const GltfSettings& settings = {}, GltfContents* contents = nullptr);
 
-/// How a node moves: straight and turning evenly from key to key, at rest before the first and after the last.
+/// How a node moves: straight and turning evenly from key to key, at rest before the first and after the last. Lights
+/// whose names go on from its path ("street/car_1/lamp") go with it.
 struct NodeMotion {
     std::string path;          // of the instances that move, or the name of a camera that does
     std::string object;        // path of a node above, which gets their class: all that moves below it is one object;

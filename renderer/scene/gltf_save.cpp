@@ -196,7 +196,9 @@ private:
         }
         if (motion) {
             place_rigidly(node, motion->scene_from_object[0]);
-            add_motion(*motion, add_node(node, parent));
+            const int index = add_node(node, parent);
+            moving_nodes_.try_emplace(motion->path, index);
+            add_motion(*motion, index);
         } else {
             node.matrix = matrix_of(in_file(instance.scene_from_object));
             add_node(node, parent);
@@ -273,15 +275,23 @@ private:
         model_.lights.push_back(entry);
 
         const ShadingBasis basis(-light.direction);  // lights shine along their node's -z
+        const Transform placed = {Vec3d(basis.tangent), Vec3d(basis.bitangent), Vec3d(basis.normal), light.position};
         tinygltf::Node node;
         node.name = light.name;
-        node.matrix =
-            matrix_of(in_file({Vec3d(basis.tangent), Vec3d(basis.bitangent), Vec3d(basis.normal), light.position}));
+        node.matrix = matrix_of(in_file(placed));
+        int parent = -1;
+        const size_t slash = std::min(light.name.rfind('/'), light.name.size());
+        const auto moving = moving_nodes_.find(light.name.substr(0, slash));
+        if (moving != moving_nodes_.end() && slash < light.name.size()) {
+            node.name = light.name.substr(slash + 1);
+            node.matrix = matrix_of(inverse(motions_.at(moving->first)->scene_from_object[0]) * placed);
+            parent = moving->second;
+        }
         node.extensions["KHR_lights_punctual"] =
             tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(int(model_.lights.size()) - 1)}});
         use_extension("KHR_lights_punctual");
         node.extras = marks(light.lamp);
-        add_node(node, -1);
+        add_node(node, parent);
     }
 
     void add_camera(const Camera& camera) {
@@ -324,6 +334,7 @@ private:
     const Scene& scene_;
     std::map<std::string, const NodeMotion*> motions_;  // by path
     std::map<std::string, int> groups_;
+    std::map<std::string, int> moving_nodes_;  // by path; the first where an instance has several meshes
     std::map<std::string, std::map<std::string, int>> numbers_in_class_;  // by class, then by path
 };
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace pluvia {
 namespace {
 
@@ -20,6 +22,15 @@ const char* size_category(size_t pairs) {
 std::string description(const DatasetConfig& config) {
     return config.description.empty() ? "Path-traced pairs of clean and rainy pictures of street scenes."
                                       : config.description;
+}
+
+std::string intensities(const DatasetConfig& config) {
+    if (!config.scenes[0].is_sequence()) return fmt::format("{} mm/h", fmt::join(config.scenes[0].options.rain, ", "));
+    double least = 1e9, most = 0;
+    for (const DatasetScene& scene : config.scenes)
+        for (const FrameKey& key : scene.course.rain)
+            least = std::min(least, key.value.x), most = std::max(most, key.value.x);
+    return fmt::format("{:g} to {:g} mm/h, changing from frame to frame", least, most);
 }
 
 }  // namespace
@@ -39,8 +50,8 @@ std::string dataset_card(const DatasetConfig& config, size_t train, size_t test,
     for (const DatasetScene& scene : config.scenes)
         card += fmt::format("| {} | {} | {} | {} |\n", scene.name, scene.frames, fmt::join(scene.train, ", "),
                             fmt::join(scene.test, ", "));
-    card += fmt::format("\nIntensities: {} mm/h. Weather: {}. Composition: {}.\n", fmt::join(o.rain, ", "),
-                        o.light.weather, o.composition);
+    card += fmt::format("\nIntensities: {}. Weather: {}. Composition: {}.\n", intensities(config), o.light.weather,
+                        o.composition);
     card += "\n## Files\n\n" + lists +
             "\n\n| key | content |\n| --- | --- |\n"
             "| `scene`, `sequence`, `intensity`, `wind` | the scene, its camera, mm/h, folder of the wind |\n";

@@ -40,7 +40,8 @@ std::string replacement(const std::string& key) {
 const std::vector<std::string> own_keys = {"name",  "description",    "license",       "scenes",
                                            "hours", "winds",          "bits",          "jpeg-quality",
                                            "exr",   "rain-over-time", "wind-over-time"};
-const std::vector<std::string> scene_keys = {"scene", "name", "traffic", "frames", "hour", "train", "test"};
+const std::vector<std::string> scene_keys = {"scene", "name", "traffic",        "frames",        "hour",
+                                             "train", "test", "rain-over-time", "wind-over-time"};
 
 /// Options of `pluvia render` that are keys, without their dashes.
 const std::vector<std::string>& render_keys() {
@@ -74,6 +75,8 @@ public:
             check_key(entry, own_keys);
             if (entry.key == "scenes") {
                 scenes = &entry;
+            } else if (read_course(course_, entry)) {
+                continue;
             } else if (std::find(own_keys.begin(), own_keys.end(), entry.key) != own_keys.end()) {
                 read_own(config, entry);
             } else {
@@ -83,12 +86,6 @@ public:
         if (!scenes) fail(root.line, "has no key \"scenes\"", "a list of scenes");
         require(scenes->value.kind == Kind::list && !scenes->value.items.empty(), scenes->line, "scenes is no list",
                 "one entry per scene");
-        if (config.is_sequence()) {
-            require(common.rain.empty(), scenes->line, "both rain and rain-over-time are given", "one of them");
-            common.rain = {config.rain_over_time[0].value.x};  // every frame has its own
-        }
-        require(config.is_sequence() || config.wind_over_time.empty(), scenes->line,
-                "wind-over-time is given without rain-over-time", "both, or winds");
         for (const ConfigNode& node : scenes->value.items) config.scenes.push_back(read_scene(node, common));
         check_whole(config, scenes->line);
         return config;
@@ -177,6 +174,24 @@ private:
         return result;
     }
 
+    /// False where the key is none of a course.
+    bool read_course(RainCourse& course, const ConfigEntry& entry) const {
+        if (entry.key == "rain-over-time") {
+            course.rain = keys(entry, 1);
+            for (const FrameKey& key : course.rain)
+                require(key.value.x >= 0 && key.value.x <= 1000, entry.line, "rain-over-time is out of range",
+                        "0 to 1000 mm/h");
+        } else if (entry.key == "wind-over-time") {
+            course.wind = keys(entry, 3);
+            for (const FrameKey& key : course.wind)
+                require(is_finite(key.value) && length(key.value) < 100, entry.line, "a wind is too strong",
+                        "below 100 m/s");
+        } else {
+            return false;
+        }
+        return true;
+    }
+
     void read_own(DatasetConfig& config, const ConfigEntry& entry) const {
         if (entry.key == "name") {
             config.name = scalar(entry);
@@ -193,16 +208,6 @@ private:
             config.pictures.jpeg_quality = integer(entry, 1, 100);
         } else if (entry.key == "exr") {
             config.pictures.exr = truth(entry);
-        } else if (entry.key == "rain-over-time") {
-            config.rain_over_time = keys(entry, 1);
-            for (const FrameKey& key : config.rain_over_time)
-                require(key.value.x >= 0 && key.value.x <= 1000, entry.line, "rain-over-time is out of range",
-                        "0 to 1000 mm/h");
-        } else if (entry.key == "wind-over-time") {
-            config.wind_over_time = keys(entry, 3);
-            for (const FrameKey& key : config.wind_over_time)
-                require(is_finite(key.value) && length(key.value) < 100, entry.line, "a wind is too strong",
-                        "below 100 m/s");
         } else if (entry.key == "hours") {
             for (const ConfigNode& node : list(entry)) {
                 const double hour = number(node, "hours");
@@ -264,6 +269,7 @@ private:
         require(node.kind == Kind::map, node.line, "a scene has no keys", "scene, frames, train, test");
         DatasetScene scene;
         scene.options = common;
+        scene.course = course_;
         for (const ConfigEntry& entry : quality_first(node.entries)) {
             check_key(entry, scene_keys);
             if (entry.key == "scene") {
@@ -287,10 +293,11 @@ private:
                                 "every camera once: training and test share none");
                     cameras.push_back(item.text);
                 }
-            } else {
+            } else if (!read_course(scene.course, entry)) {
                 set(scene.options, entry);
             }
         }
+        set_course(scene, node.line);
         require(!scene.source.empty(), node.line, "a scene has no key \"scene\"",
                 "a name of pluvia scenes --list, or a glTF file");
         require(scene.frames > 0, node.line, "a scene has no key \"frames\"", "frames of each camera");
@@ -314,12 +321,22 @@ private:
         return scene;
     }
 
+    void set_course(DatasetScene& scene, int line) const {
+        require(scene.is_sequence() || scene.course.wind.empty(), line,
+                "wind-over-time is given without rain-over-time", "both, or winds");
+        if (!scene.is_sequence()) return;
+        require(scene.options.rain.empty(), line, "both rain and rain-over-time are given", "one of them");
+        scene.options.rain = {scene.course.rain[0].value.x};  // every frame has its own
+    }
+
     void check_whole(const DatasetConfig& config, int line) const {
         for (const DatasetScene& scene : config.scenes) {
             camera_settings(scene.options);  // what depends on several keys
+            require(scene.is_sequence() == config.scenes[0].is_sequence(), line,
+                    "some scenes have rain-over-time and others none", "all or no scenes with it");
             require(!scene.options.rain.empty(), line, "no intensities are given", "rain: [10, 25, ...] in mm/h");
-            require(scene.options.rain == config.scenes[0].options.rain, line, "scenes differ in rain",
-                    "the same intensities");
+            require(scene.is_sequence() || scene.options.rain == config.scenes[0].options.rain, line,
+                    "scenes differ in rain", "the same intensities");
             require(scene.options.layers.empty() || config.pictures.exr, line, "labels are asked for without EXR files",
                     "exr: true, since labels are layers of these");
             require(std::is_sorted(scene.options.rain.begin(), scene.options.rain.end()), line,
@@ -331,6 +348,7 @@ private:
     }
 
     std::string path_;
+    RainCourse course_;  // of scenes without one of their own
     RenderOptions parsed_;
     CLI::App app_;  // of `pluvia render`, made when the first of its options comes; parses one after another
 };

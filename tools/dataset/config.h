@@ -10,6 +10,11 @@
 
 namespace pluvia {
 
+/// How the rain of a sequence goes from frame to frame.
+struct RainCourse {
+    std::vector<FrameKey> rain, wind;  // mm/h, in x, and m/s; wind empty: as frames have it otherwise
+};
+
 struct DatasetScene {
     std::string name;    // folder of its pictures
     std::string source;  // a builder's name, or the path of a glTF file
@@ -17,8 +22,12 @@ struct DatasetScene {
     bool traffic = false;                  // of a built scene: what moves in it
     int frames = 0;                        // of every camera
     std::optional<double> hour;            // of all frames; empty: as the dataset's hours have it
+    RainCourse course;                     // its own, or the dataset's; without rain: frames are no sequence
     std::vector<std::string> train, test;  // cameras
     RenderOptions options;                 // the same for all its frames
+
+    /// Whether rain falls on from frame to frame, one intensity each.
+    bool is_sequence() const { return !course.rain.empty(); }
 };
 
 /// How pictures are stored.
@@ -32,13 +41,9 @@ struct DatasetConfig {
     std::string path;  // of the file
     std::string name, description, license = "other";
     std::vector<DatasetScene> scenes;
-    std::vector<double> hours;                             // frame i has hours[i % size]; empty: 24 i / frames
-    std::vector<Vec3d> winds = {Vec3d()};                  // m/s; frame i has winds[i % size]
-    std::vector<FrameKey> rain_over_time, wind_over_time;  // mm/h, in x, and m/s along frames; rain empty: no sequences
+    std::vector<double> hours;             // frame i has hours[i % size]; empty: 24 i / frames
+    std::vector<Vec3d> winds = {Vec3d()};  // m/s; frame i has winds[i % size]
     PictureFormat pictures;
-
-    /// Whether rain falls on from frame to frame, one intensity each.
-    bool is_sequence() const { return !rain_over_time.empty(); }
 
     size_t intensity_count() const { return scenes.front().options.rain.size(); }
 };

@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <iostream>
+#include <optional>
 
 namespace pluvia {
 namespace {
@@ -37,7 +38,11 @@ std::string plural(size_t count, const std::string& word) {
 }
 
 void plan(const DatasetOptions& o, const DatasetConfig& config) {
-    const auto plan = dataset_plan(config, o.output, !o.no_sample);
+    catch_interrupts();
+    std::optional<Progress> progress;
+    if (!o.no_sample) progress.emplace(Progress::style_from_name(o.progress), "measuring");
+    const auto plan = dataset_plan(config, o.output, progress ? &*progress : nullptr);
+    progress.reset();
     std::cout << (o.json ? json_text(plan, 2) + "\n" : plan_text(plan));
 }
 
@@ -145,7 +150,8 @@ void add_dataset_command(CLI::App& app) {
 
     auto* sub = add("plan", "frames, hours, machines and disk, before anything is made",
                     "plan scenes/hri.yaml -o out/hri --no-sample", plan);
-    sub->add_flag("--no-sample", o->no_sample, "counts only; without it two frames of each scene are measured");
+    sub->add_flag("--no-sample", o->no_sample, "counts only; without it parts of some frames are measured");
+    add_progress(sub);
     add_json(sub);
     sub = add("run", "make the frames that are not done; what is done is verified and left alone",
               "run scenes/hri-smoke.yaml -o out/smoke --shard 1/4", run);

@@ -33,19 +33,20 @@ std::vector<double> numbers(Vec3d v) {
 }
 
 /// The rain of one sequence is the same rain in all its frames.
-void set_rain_over_time(const DatasetConfig& config, DatasetItem& item) {
+void set_rain_over_time(const DatasetScene& scene, DatasetItem& item) {
     item.is_sequence = true;
     // In steps of 0.01 mm/h, so that names of channels are short.
-    item.options.rain = {std::round(100 * value_at(config.rain_over_time, item.frame).x) / 100};
-    const uint64_t seed = config.scenes[item.scene].options.seed;
+    item.options.rain = {std::round(100 * value_at(scene.course.rain, item.frame).x) / 100};
+    const uint64_t seed = scene.options.seed;
     item.options.rain_seed = hash_text(fmt::format("{}/{}/{}", seed, item.scene_name, item.camera)) >> 32;
-    if (config.wind_over_time.empty()) return;
-    item.options.wind = numbers(value_at(config.wind_over_time, item.frame));
-    item.options.wind_travel = numbers(integral_to(config.wind_over_time, item.frame) * (1 / item.options.fps));
+    const std::vector<FrameKey>& wind = scene.course.wind;
+    if (wind.empty()) return;
+    item.options.wind = numbers(value_at(wind, item.frame));
+    item.options.wind_travel = numbers(integral_to(wind, item.frame) * (1 / item.options.fps));
     if (item.options.wetness == 0 && item.options.puddles == 0) return;
     // Water does not leave the ground as soon as the wind turns: what is wet is so by the mean wind.
-    const double frames = std::max(1.0, config.wind_over_time.back().frame);
-    item.options.wet_wind = numbers(integral_to(config.wind_over_time, frames) * (1 / frames));
+    const double frames = std::max(1.0, wind.back().frame);
+    item.options.wet_wind = numbers(integral_to(wind, frames) * (1 / frames));
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ std::vector<DatasetItem> dataset_items(const DatasetConfig& config) {
                     // Noise of its own: the same in every frame would be learnt as a part of pictures.
                     item.options.seed = hash_text(fmt::format("{}/{}", scene.options.seed, item.id())) >> 32;
                     item.options.depth_encoding = "hri";
-                    if (config.is_sequence()) set_rain_over_time(config, item);
+                    if (scene.is_sequence()) set_rain_over_time(scene, item);
                     items.push_back(std::move(item));
                 }
     }

@@ -56,6 +56,15 @@ std::map<std::string, std::vector<double>> recorded_bytes(const DatasetState& st
     return bytes;
 }
 
+bool exists(const DatasetConfig& config, size_t scene) {
+    try {
+        require_scene(config, scene);
+        return true;
+    } catch (const Error&) {
+        return false;  // counts do not need it
+    }
+}
+
 std::string hours_text(double seconds) {
     return seconds < 90     ? fmt::format("{:.0f} s", seconds)
            : seconds < 5400 ? fmt::format("{:.0f} min", seconds / 60)
@@ -68,55 +77,59 @@ std::string bytes_text(double bytes) {
 
 }  // namespace
 
-Json dataset_plan(const DatasetConfig& config, const std::string& dataset, bool sample) {
+Json dataset_plan(const DatasetConfig& config, const std::string& dataset, Progress* progress) {
     const size_t intensities = config.intensity_count();
     Json plan{{"name", config.name}, {"scenes", Json::array()}};
     const auto recorded = recorded_bytes(read_dataset_state(config, dataset));
     const RunHistory history = read_run_history(dataset);
-    size_t frames = 0, train = 0, test = 0;
-    double seconds = 0, bytes = 0;
-    size_t known = 0;
+    std::map<size_t, FrameCost> costs;
+    std::vector<size_t> to_measure;
+    for (size_t s = 0; s < config.scenes.size(); ++s) {
+        const std::string& name = config.scenes[s].name;
+        const auto seconds = history.seconds.find(name);
+        const auto bytes = recorded.find(name);
+        if (seconds != history.seconds.end() && bytes != recorded.end())
+            costs[s] = {{mean(seconds->second), 0}, mean(bytes->second)};
+        else if (exists(config, s))
+            to_measure.push_back(s);
+    }
+    if (progress) costs.merge(measure_frame_costs(config, to_measure, Scratch().path(), *progress));
+
+    size_t frames = 0, train = 0, test = 0, known = 0;
+    bool all_measured = true;  // now, with processor time
+    SpentTime time;
+    double bytes = 0;
     for (size_t s = 0; s < config.scenes.size(); ++s) {
         const DatasetScene& scene = config.scenes[s];
-        const size_t per_camera = size_t(scene.frames);
+        const size_t per_camera = size_t(scene.frames),
+                     of_scene = per_camera * (scene.train.size() + scene.test.size());
         Json j{{"scene", scene.name},
-               {"frames", per_camera * (scene.train.size() + scene.test.size())},
+               {"frames", of_scene},
                {"train_pairs", per_camera * scene.train.size() * intensities},
                {"test_pairs", per_camera * scene.test.size() * intensities}};
-        frames += j["frames"].get<size_t>();
-        train += j["train_pairs"].get<size_t>(), test += j["test_pairs"].get<size_t>();
-        FrameCost cost;
-        if (const auto found = history.seconds.find(scene.name); found != history.seconds.end())
-            cost.seconds = mean(found->second);
-        if (const auto found = recorded.find(scene.name); found != recorded.end()) cost.bytes = mean(found->second);
-        if (sample && (cost.seconds == 0 || cost.bytes == 0)) {
-            bool exists = true;
-            try {
-                require_scene(config, s);
-            } catch (const Error&) {
-                exists = false;  // counts do not need it; what its frames cost is taken from the others
-            }
-            j["exists"] = exists;
-            if (exists) {
-                const Scratch scratch;
-                const FrameCost measured = measure_frame_cost(config, s, scratch.path());
-                if (cost.seconds == 0) cost.seconds = measured.seconds;
-                if (cost.bytes == 0) cost.bytes = measured.bytes;
-            }
-        }
-        if (cost.seconds > 0 && cost.bytes > 0) {
-            j["seconds_per_frame"] = cost.seconds, j["bytes_per_frame"] = cost.bytes;
-            seconds += cost.seconds * double(j["frames"]), bytes += cost.bytes * double(j["frames"]);
-            known += j["frames"].get<size_t>();
+        frames += of_scene, train += j["train_pairs"].get<size_t>(), test += j["test_pairs"].get<size_t>();
+        if (progress) j["exists"] = exists(config, s);
+        if (const auto found = costs.find(s); found != costs.end()) {
+            const FrameCost& cost = found->second;
+            j["seconds_per_frame"] = cost.time.wall;
+            if (cost.time.processor > 0)
+                j["processor_seconds_per_frame"] = cost.time.processor;
+            else
+                all_measured = false;
+            j["bytes_per_frame"] = cost.bytes;
+            time = time + cost.time * double(of_scene), bytes += cost.bytes * double(of_scene);
+            known += of_scene;
         }
         plan["scenes"].push_back(j);
     }
     plan["frames"] = frames, plan["pairs"] = train + test;
     plan["train_pairs"] = train, plan["test_pairs"] = test;
     if (known > 0) {
-        const double all = double(frames) / double(known);
-        plan["hours"] = seconds * all / 3600;
-        plan["machines_for_a_night"] = std::max(1, int(std::ceil(seconds * all / 3600 / night_hours)));
+        // Scenes that are not there are taken to cost what the others do.
+        const double all = double(frames) / double(known), hours = time.wall * all / 3600;
+        plan["hours"] = hours;
+        if (all_measured) plan["processor_hours"] = time.processor * all / 3600;
+        plan["machines_for_a_night"] = std::max(1, int(std::ceil(hours / night_hours)));
         plan["bytes"] = bytes * all;
     }
     return plan;
@@ -135,6 +148,8 @@ std::string plan_text(const Json& plan) {
     }
     text += fmt::format("{:<18}{:>8}{:>13}{:>12}\n", "all", plan["frames"].get<size_t>(),
                         plan["train_pairs"].get<size_t>(), plan["test_pairs"].get<size_t>());
+    if (plan.contains("processor_hours"))
+        text += fmt::format("{} of one core; ", hours_text(plan["processor_hours"].get<double>() * 3600));
     if (plan.contains("hours"))
         text += fmt::format("{} on this machine alone; {} such machine{} for a night of {:g} h; up to {} of disk\n",
                             hours_text(plan["hours"].get<double>() * 3600), plan["machines_for_a_night"].get<int>(),

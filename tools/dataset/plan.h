@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tools/dataset/item.h"
+#include "tools/progress.h"
 
 #include <nlohmann/json.hpp>
 
@@ -9,10 +10,10 @@
 
 namespace pluvia {
 
-/// Counts by scene and split. sample: also renders two frames of each scene that exists, as configured but with one
-/// sample per pixel and at most two million pixels, and tells time and disk from them; half a minute a scene at 2048 x
-/// 1024. dataset: where frames that are there already tell both better; may not exist.
-nlohmann::ordered_json dataset_plan(const DatasetConfig& config, const std::string& dataset, bool sample);
+/// Counts by scene and split. progress: null, or measures what frames of the scenes that exist take (plan_sample.h) and
+/// tells time and disk from that; throws Error (stopped_early) when it is interrupted. dataset: where frames that are
+/// there already tell both better; may not exist.
+nlohmann::ordered_json dataset_plan(const DatasetConfig& config, const std::string& dataset, Progress* progress);
 std::string plan_text(const nlohmann::ordered_json& plan);
 
 /// `pluvia dataset status`: how many frames of each scene are there, and when the rest will be.

@@ -1,64 +1,81 @@
 #include "tools/dataset/plan_sample.h"
 
-#include "tools/dataset/item_files.h"
+#include "renderer/core/error.h"
+#include "tools/dataset/frame_probe.h"
 #include "tools/dataset/scene_source.h"
+#include "tools/dataset/sequence_exposure.h"
 
-#include <fmt/format.h>
-
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 namespace pluvia {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-namespace fs = std::filesystem;
+/// Scenes that are read from one file, so that it is built and read once for all of them.
+std::vector<std::vector<size_t>> by_file(const DatasetConfig& config, const std::vector<size_t>& scenes) {
+    std::map<std::pair<std::string, bool>, std::vector<size_t>> groups;
+    for (const size_t s : scenes) groups[{config.scenes[s].source, config.scenes[s].traffic}].push_back(s);
+    std::vector<std::vector<size_t>> lists;
+    for (auto& [file, group] : groups) lists.push_back(std::move(group));
+    return lists;
+}
 
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+/// The n-th of a scene's frames to measure: cameras in turn, and frames by the golden ratio, which spreads any number
+/// of them evenly. items: of the scene, camera by camera.
+const DatasetItem& chosen_frame(const DatasetScene& scene, const std::vector<const DatasetItem*>& items, size_t n) {
+    const double golden = 0.6180339887498949, place = (double(n) + 0.5) * golden;
+    const size_t frames = size_t(scene.frames), cameras = items.size() / frames;
+    return *items[n % cameras * frames + size_t((place - std::floor(place)) * double(frames))];
 }
 
 }  // namespace
 
-FrameCost measure_frame_cost(const DatasetConfig& config, size_t scene, const std::string& scratch) {
-    constexpr double most_pixels = 1 << 21;
-    std::vector<DatasetItem> items;
-    for (DatasetItem& item : dataset_items(config))
-        if (item.scene == scene) items.push_back(std::move(item));
-    const size_t frames = size_t(config.scenes[scene].frames);
+std::map<size_t, FrameCost> measure_frame_costs(const DatasetConfig& config, const std::vector<size_t>& scenes,
+                                                const std::string& scratch, Progress& progress) {
+    constexpr size_t all_frames = 48, least_frames = 2, most_frames = 8;
+    std::map<size_t, FrameCost> costs;
+    if (scenes.empty()) return costs;
+    const size_t of_scene = std::clamp(all_frames / scenes.size(), least_frames, most_frames);
+    const std::vector<DatasetItem> all = dataset_items(config);
+    std::vector<std::vector<const DatasetItem*>> items(config.scenes.size());
+    for (const DatasetItem& item : all) items[item.scene].push_back(&item);
+    double done = 0;
+    const double steps = double(scenes.size() * of_scene);
+    const auto go_on = [&](double share) {
+        if (!progress.update((done + 0.99 * share) / steps))
+            throw Error(ExitCode::stopped_early, config.path, "stopped before all scenes were measured");
+        return true;
+    };
     SceneSource source(config, scratch);
-    FrameCost cost;
-    // The first camera's first frame and the one half a sequence later: night and day where hours are equal steps.
-    for (const size_t index : {size_t(0), frames / 2}) {
-        DatasetItem item = items[index];
-        const int samples = item.options.spp;
-        item.options.spp = 1;
-        const CameraSettings full = camera_settings(item.options);
-        const double pixels = double(full.width) * full.height, shrink = std::min(1.0, std::sqrt(most_pixels / pixels));
-        item.options.size =
-            fmt::format("{}x{}", std::max(1, int(full.width * shrink)), std::max(1, int(full.height * shrink)));
-        const auto before = Clock::now();
-        const FrameScene& loaded = source.at(scene, item.options);
-        // A scene that moves is read anew for every frame. The first time it is built, too, which happens once a run.
-        if (index > 0 && loaded.is_animated) cost.seconds += seconds_since(before);
-        const std::string folder = scratch + "/sample";
-        fs::create_directories(folder);
-        const auto start = Clock::now();
-        const FrameSettings settings(item.options);
-        const std::string exr = folder + "/layers.exr";
-        const RenderedFrame frame = render_frame(loaded, item.options, settings, exr, [](double) { return true; });
-        DisplaySettings display = settings.display;
-        display.ev100 = frame.ev100;
-        display.text = display_text(frame);
-        const ItemFiles files = write_item_files(folder, exr, item, config.pictures, frame, display);
-        const double traced = frame.report.render_seconds, other = seconds_since(start) - traced;
-        const double scale = 1 / (shrink * shrink);
-        cost.seconds += 0.5 * (other * scale + traced * scale * samples);
-        for (const StoredFile& file : files.files) cost.bytes += 0.5 * scale * double(fs::file_size(file.temporary));
-        fs::remove_all(folder);
-    }
-    return cost;
+    const std::string folder = scratch + "/frame";
+    std::filesystem::create_directories(folder);
+    for (const std::vector<size_t>& group : by_file(config, scenes))
+        for (size_t n = 0; n < of_scene; ++n)
+            for (const size_t s : group) {
+                go_on(0);
+                DatasetItem item = chosen_frame(config.scenes[s], items[s], n);
+                FrameCost& cost = costs[s];
+                streak_textures(item.options);           // made once on a machine
+                if (n > 0) item.options.layers.clear();  // what they take is known from the first one
+                const FrameScene& scene = source.at(s, item.options);
+                const TracingCost tracing = probe_tracing(item, scene, folder);
+                cost.time = cost.time + (tracing.ready + tracing.sample * tracing.samples) * (1 / double(of_scene));
+                if (n == 0) {
+                    const FilesCost files = probe_files(item, config.pictures, scene, folder, go_on);
+                    const SpentTime load = scene.is_animated ? source.load_time() : SpentTime();
+                    cost.time = cost.time + files.time - tracing.sample * files.samples + load;
+                    cost.bytes = files.bytes;
+                    if (item.is_sequence && item.options.exposure == "auto") {
+                        const double frames = config.scenes[s].frames;
+                        cost.time =
+                            cost.time + (load + tracing.ready) * (std::min(double(metered_frames), frames) / frames);
+                    }
+                }
+                ++done;
+            }
+    go_on(0);
+    return costs;
 }
 
 }  // namespace pluvia

@@ -56,24 +56,39 @@ std::string SceneSource::hash(size_t index) {
     return fmt::format("{:016x}", loaded.hash);
 }
 
+SceneSource::Load SceneSource::load_of(const DatasetScene& scene, const RenderOptions& options) const {
+    const CameraSettings camera = camera_settings(options);
+    Load load;
+    load.file = scene.is_built ? fmt::format("{}/{}{}.glb", scratch_, scene.source, scene.traffic ? "-traffic" : "")
+                               : scene.source;
+    load.variant = options.variant;
+    load.time = camera.mid_exposure, load.exposure_time = camera.exposure_time, load.fps = options.fps;
+    load.allow_outside = options.allow_outside;
+    load.flow = label_choice(options.layers).layers.flow;
+    load.texture_size = options.texture_size;
+    return load;
+}
+
 const FrameScene& SceneSource::at(size_t index, const RenderOptions& options) {
-    const double time = options.frame / options.fps;
-    if (loaded_ && scene_ == index && (!loaded_->is_animated || time_ == time)) return *loaded_;
+    const DatasetScene& scene = config_->scenes[index];
+    const Load load = load_of(scene, options);
+    Load held = load_;
+    if (loaded_ && !loaded_->is_animated)
+        held.time = load.time, held.exposure_time = load.exposure_time, held.fps = load.fps, held.flow = load.flow;
+    if (loaded_ && held == load) return *loaded_;
     loaded_.reset();  // never two at a time
     require_scene(*config_, index);
-    const DatasetScene& scene = config_->scenes[index];
-    RenderOptions file = options;
-    if (scene.is_built) {
-        file.scene = fmt::format("{}/{}{}.glb", scratch_, scene.source, scene.traffic ? "-traffic" : "");
-        std::error_code ignored;
-        if (!std::filesystem::exists(file.scene, ignored)) {
-            Scene built = find_builder(scene.source)->build();
-            const std::vector<NodeMotion> motions = scene.traffic ? add_traffic(built) : std::vector<NodeMotion>();
-            save_glb(built, file.scene, motions);
-        }
+    std::error_code ignored;
+    if (scene.is_built && !std::filesystem::exists(load.file, ignored)) {
+        Scene built = find_builder(scene.source)->build();
+        const std::vector<NodeMotion> motions = scene.traffic ? add_traffic(built) : std::vector<NodeMotion>();
+        save_glb(built, load.file, motions);
     }
+    RenderOptions file = options;
+    file.scene = load.file;
+    const SpentTime start = spent_time();
     loaded_ = load_frame_scene(file);
-    scene_ = index, time_ = time;
+    load_ = load, load_time_ = spent_time() - start;
     return *loaded_;
 }
 

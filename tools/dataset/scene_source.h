@@ -1,6 +1,7 @@
 // The scenes of a dataset, loaded one at a time.
 #pragma once
 
+#include "tools/clock.h"
 #include "tools/dataset/config.h"
 #include "tools/frame_render.h"
 
@@ -25,11 +26,24 @@ public:
     /// options: those of a frame, whose time decides where the scene is animated.
     const FrameScene& at(size_t scene, const RenderOptions& options);
 
+    /// What reading the scene that at() gave last took; building it does not count, nor that it was there already.
+    SpentTime load_time() const { return load_time_; }
+
 private:
+    /// All that decides over what is read.
+    struct Load {
+        std::string file, variant;
+        double time = 0, exposure_time = 0, fps = 0;  // of animations
+        bool allow_outside = false, flow = false;
+        std::optional<int> texture_size;
+        bool operator==(const Load&) const = default;
+    };
+    Load load_of(const DatasetScene& scene, const RenderOptions& options) const;
+
     const DatasetConfig* config_;
     std::string scratch_;
-    size_t scene_ = 0;
-    double time_ = 0;  // seconds, of the loaded state
+    Load load_;
+    SpentTime load_time_;
     std::optional<FrameScene> loaded_;
 };
 

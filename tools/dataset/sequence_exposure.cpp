@@ -20,9 +20,8 @@ std::optional<double> SequenceExposure::of(const DatasetItem& item, SceneSource&
 }
 
 double SequenceExposure::meter(std::span<const DatasetItem* const> frames, SceneSource& source) const {
-    constexpr size_t most = 8;
     constexpr int width = 128, samples = 16;
-    const size_t count = std::min(most, frames.size());
+    const size_t count = std::min(metered_frames, frames.size());
     const std::string exr = scratch_ + "/meter.exr";
     LuminanceHistogram all;
     for (size_t i = 0; i < count; ++i) {

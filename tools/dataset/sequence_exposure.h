@@ -12,6 +12,9 @@
 
 namespace pluvia {
 
+/// So many frames of a sequence, or all that it has, tell its exposure.
+constexpr size_t metered_frames = 8;
+
 /// Meters sequences once each, by the automatic exposure of the backgrounds of a few of their frames taken as one
 /// picture. These are small and coarse; the value depends on the configuration alone, not on what was made before.
 class SequenceExposure {
