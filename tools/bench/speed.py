@@ -57,7 +57,8 @@ def check(options):
         fail(f"--size: is no size (got {options.size}, expected WIDTHxHEIGHT of 16 or more)")
     if options.rounds < 1 or options.spp < 1 or options.batches < 2:
         fail("--rounds, --spp: expected 1 or more; --batches: 2 or more")
-    needs = [(options.kaystreet, "a .glb file by --kaystreet"), (options.pluvia, "cmake --build build --target pluvia")]
+    needs = [(options.kaystreet, "a .glb file by --kaystreet"),
+             (options.pluvia, "cmake --build build --target pluvia")]
     if "rays" in options.only:
         needs.append((options.ray_limit, "cmake --build build --target ray_limit"))
     for path, how in needs:
@@ -101,8 +102,10 @@ def report(street):
     kept = street.kept
     kept.root["table"] = [r for part in PARTS.values() for r in part.rows(street)]
     kept.save()
-    loads = [r["load"] for r in kept.root["runs"].values() if "load" in r]
+    runs = kept.root["runs"].values()
+    loads = [r["load"] for r in runs if "load" in r]
     told = kept.root["settings"] | {"load while measuring": f"{min(loads):.1f} to {max(loads):.1f}" if loads else "-",
+                                    "seeds": ", ".join(map(str, sorted({r["seed"] for r in runs if "seed" in r}))),
                                     "date": time.strftime("%Y-%m-%d %H:%M")}
     text = "\n".join(f"{k}: {v}" for k, v in told.items()) + "\n\n" + table(kept.root["table"]) + "\n"
     write_whole(street.folder + "/table.md", text)

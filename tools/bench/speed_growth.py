@@ -22,9 +22,10 @@ def sizes(street):
     return [f"{round(width * f)}x{round(height * f)}" for f in (0.5, 1, 2)]
 
 
-def render(street, scene, *arguments):
-    record = street.pluvia(scene, street.folder + "/frame", "--environment", street.environment("day"), *arguments)
-    return {k: record[k] for k in ("wall", "processor", "peak", "load", "camera_paths", "streak_hits", "streaks")}
+def render(street, scene, seed, *arguments):
+    record = street.pluvia(scene, street.folder + "/frame", "--environment", street.environment("day"), "--seed", seed,
+                           *arguments) | {"seed": seed}
+    return {k: record[k] for k in ("wall", "processor", "peak", "load", "camera_paths", "streak_hits", "streaks", "seed")}
 
 
 def large_street(street):
@@ -46,15 +47,15 @@ def measure(street):
     for i in range(street.options.rounds):
         for size in sizes(street):
             kept.get(f"growth/pixels {size}/{i}",
-                     lambda: render(street, street.day(), "--size", size, "--spp", 16, "--seed", i))
+                     lambda: render(street, street.day(), i, "--size", size, "--spp", 16))
         for spp in SAMPLES:
             kept.get(f"growth/samples {spp}/{i}",
-                     lambda: render(street, street.day(), "--size", small, "--spp", spp, "--seed", i))
+                     lambda: render(street, street.day(), i, "--size", small, "--spp", spp))
         for rain in ("0", *map(str, INTENSITIES), ",".join(map(str, INTENSITIES))):
             given = [] if rain == "0" else ["--rain", rain, "--streak-width", "1"]
             kept.get(f"growth/rain {rain}/{i}",
-                     lambda: render(street, street.day(), "--size", small, "--spp", 16, "--seed", i, *given))
-        kept.get(f"growth/first sample/{i}", lambda: render(street, large, "--size", "64x32", "--spp", 1))
+                     lambda: render(street, street.day(), i, "--size", small, "--spp", 16, *given))
+        kept.get(f"growth/first sample/{i}", lambda: render(street, large, i, "--size", "64x32", "--spp", 1))
 
 
 def cost(records):

@@ -25,7 +25,7 @@ def scenes(street):
     if not os.path.exists(files["citystreet"]):
         run([options.pluvia, "scenes", "citystreet", "-o", folder])
     if not os.path.exists(files["dense"]):
-        run(street.script("large_street.py", files["dense"] + ".part", "--copies", "0"))
+        run(street.script("dense.py", options.kaystreet, files["dense"] + ".part"))
         os.replace(files["dense"] + ".part", files["dense"])
     for name, path in files.items():
         yield name, "real", path
