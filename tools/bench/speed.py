@@ -4,10 +4,11 @@ Blender, and against itself as its task grows.
 
 Example: cmake --build build --target pluvia ray_limit
          tools/bench/speed.py out/speed --kaystreet kaystreet.glb --only rays,error
-Run the same line again to go on. Needs Debian's blender and python3-openimageio (error, group), numpy and
-openimageio-tools. kaystreet.glb: KayKit's City Builder Bits (CC0) as a street, with one camera, exported by Blender.
+Run the same line again to go on. Needs Debian's python3-openimageio, blender (error, group) and openimageio-tools
+(growth). kaystreet.glb: KayKit's City Builder Bits (CC0) as a street, with one camera, exported by Blender.
 
-FOLDER gets speed.json, with all that was measured and the table, table.md, and pictures and scenes that may be deleted.
+FOLDER gets speed.json, with all that was measured and the table, table.md, scenes, and the pictures whose errors are
+measured.
 In the table ratio is the value over what it is held against, or the reverse where less is better: more is always
 better. Times are of the processor (user and system, all threads), because on a machine that others use too the clock
 measures them as well; programs alternate, and medians are of --rounds runs at least. speed.json also has the clock's.
@@ -47,32 +48,36 @@ def read_options():
     return options
 
 
+def refuse(text):
+    fail(text, 2)
+
+
 def check(options):
     """Ends with one line where something is missing or wrong."""
     unknown = [p for p in options.only if p not in PARTS]
     if unknown:
-        fail(f"--only: there is no part {unknown[0]} (expected {', '.join(PARTS)})")
+        refuse(f"--only: there is no part {unknown[0]} (expected {', '.join(PARTS)})")
     sides = options.size.split("x")
     if len(sides) != 2 or not all(s.isdigit() and 16 <= int(s) <= 65536 for s in sides):
-        fail(f"--size: is no size (got {options.size}, expected WIDTHxHEIGHT of 16 or more)")
+        refuse(f"--size: is no size (got {options.size}, expected WIDTHxHEIGHT of 16 or more)")
     if options.rounds < 1 or options.spp < 1 or options.batches < 2:
-        fail("--rounds, --spp: expected 1 or more; --batches: 2 or more")
+        refuse("--rounds, --spp: expected 1 or more; --batches: 2 or more")
     needs = [(options.kaystreet, "a .glb file by --kaystreet"),
              (options.pluvia, "cmake --build build --target pluvia")]
     if "rays" in options.only:
         needs.append((options.ray_limit, "cmake --build build --target ray_limit"))
     for path, how in needs:
         if not os.path.exists(path):
-            fail(f"{path}: is missing (expected {how})")
+            refuse(f"{path}: is missing (expected {how})")
     if {"error", "group"} & set(options.only) and not shutil.which("blender"):
-        fail("blender: is missing (expected apt-get install blender)")
-    if "rays" in options.only and not shutil.which("oiiotool"):
-        fail("oiiotool: is missing (expected apt-get install openimageio-tools)")
+        refuse("blender: is missing (expected apt-get install blender)")
+    if "growth" in options.only and not shutil.which("oiiotool"):
+        refuse("oiiotool: is missing (expected apt-get install openimageio-tools)")
     for module, package in (("numpy", "python3-numpy"), ("OpenImageIO", "python3-openimageio")):
         try:
             importlib.import_module(module)
         except ImportError:
-            fail(f"{package}: is missing for {sys.executable} (expected apt-get install {package} and /usr/bin/python3)")
+            refuse(f"{package}: is missing for {sys.executable} (expected apt-get install {package}, /usr/bin/python3)")
 
 
 def settings(options):

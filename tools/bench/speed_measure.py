@@ -20,8 +20,10 @@ class Run:
     load: float       # of the machine when it ended, mean of a minute
 
 
-def fail(text):
-    sys.exit(f"speed: error: {text}")
+def fail(text, code=4):
+    """code: 4 where a program failed, 2 where the command line or what is installed is wrong."""
+    print(f"speed: error: {text}", file=sys.stderr)
+    sys.exit(code)
 
 
 def run(command, environment=None):
@@ -63,7 +65,7 @@ class Kept:
         different = [f"{k}: {old.get(k)} there, {v} now" for k, v in settings.items() if old.get(k) != v]
         if different:
             fail(f"{self.path}: was begun with something else ({'; '.join(different)}); use another folder or what it "
-                 "was begun with")
+                 "was begun with", 2)
 
     def get(self, name, make):
         """The measurement of that name: a dictionary, made now where there is none yet."""
