@@ -1,29 +1,51 @@
 #!/usr/bin/env python3
 """Copies a .glb file with all its materials made Lambert's: no metal, no coat. Partner of `cycles.py --lambert`.
 
-Usage: tools/bench/lambert.py IN.glb OUT.glb
-What differs between two programs that render OUT.glb is then not a model of reflection.
+Usage: tools/bench/lambert.py IN.glb OUT.glb [--grey]
+What differs between two programs that render OUT.glb is then not a model of reflection. --grey: all of albedo 0.5,
+opaque and without textures or glow, so that what remains of a program's work is tracing rays.
 """
-import json
-import struct
 import sys
 
-if len(sys.argv) != 3:
-    sys.exit(__doc__)
-with open(sys.argv[1], "rb") as file:
-    data = file.read()
-magic, version, _, length, kind = struct.unpack_from("<4sIIII", data)
-if magic != b"glTF" or version != 2 or kind != 0x4E4F534A:
-    sys.exit(f"lambert: {sys.argv[1]}: is no .glb file of version 2")
-scene = json.loads(data[20 : 20 + length])
-for material in scene.get("materials", []):
+from glb import read_glb, write_glb
+
+EMISSIVE = "KHR_materials_emissive_strength"
+
+
+def make_lambert(material):
     metallic_roughness = material.setdefault("pbrMetallicRoughness", {})
     metallic_roughness["metallicFactor"] = 0
-    material["extensions"] = {k: v for k, v in material.get("extensions", {}).items() if k == "KHR_materials_emissive_strength"}
+    material["extensions"] = {k: v for k, v in material.get("extensions", {}).items() if k == EMISSIVE}
     material["extensions"]["KHR_materials_specular"] = {"specularFactor": 0}
-scene["extensionsUsed"] = sorted({*scene.get("extensionsUsed", []), "KHR_materials_specular"})
-text = json.dumps(scene).encode()
-text += b" " * (-len(text) % 4)
-rest = data[20 + length :]
-with open(sys.argv[2], "wb") as file:
-    file.write(struct.pack("<4sIIII", b"glTF", 2, 20 + len(text) + len(rest), len(text), 0x4E4F534A) + text + rest)
+
+
+def grey_material():
+    return {"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0}, "doubleSided": True,
+            "extensions": {"KHR_materials_specular": {"specularFactor": 0}}}
+
+
+def make_grey(scene):
+    """Pictures stay in the file, but nothing uses them."""
+    scene["materials"] = [grey_material()]
+    for mesh in scene.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            primitive["material"] = 0
+            primitive["attributes"].pop("COLOR_0", None)
+            primitive.get("extensions", {}).pop("KHR_materials_variants", None)
+
+
+def main():
+    grey = "--grey" in sys.argv
+    paths = [a for a in sys.argv[1:] if a != "--grey"]
+    if len(paths) != 2:
+        sys.exit(__doc__)
+    scene, binary = read_glb(paths[0])
+    if grey:
+        make_grey(scene)
+    for material in scene.get("materials", []):
+        make_lambert(material)
+    scene["extensionsUsed"] = sorted({*scene.get("extensionsUsed", []), "KHR_materials_specular"})
+    write_glb(paths[1], scene, binary)
+
+
+main()

@@ -23,6 +23,9 @@ import numpy
 import OpenImageIO as oiio
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+# Illuminance of each environment on the horizontal and the share of a sun in it. By day white ground has radiance 1; at
+# night the lamps of the scene (300) are left to do the work.
+LIGHT = {"day": (math.pi, 0.6), "night": (0.01 * math.pi, 0)}
 BATCH = 64  # samples per pixel; its number of batches, not their size, decides how well the error is known
 
 
@@ -170,8 +173,7 @@ def main():
     parser.add_argument("--cycles-samples", type=int, default=4096, help="0: without Cycles")
     options = parser.parse_args()
     os.makedirs(options.folder, exist_ok=True)
-    # By day white ground has radiance 1; by night the lamps of the scene (300) are left to do the work.
-    for time, illuminance, sun_share in (("day", math.pi, 0.6), ("night", 0.01 * math.pi, 0)):
+    for time, (illuminance, sun_share) in LIGHT.items():
         path = f"{options.folder}/{time}.exr"
         if not os.path.exists(path):
             write_exr(path, environment(illuminance, sun_share), ["R", "G", "B"])
