@@ -42,7 +42,7 @@ void replace(const SmallDataset& small, const std::string& what, const std::stri
 
 }  // namespace
 
-TEST_CASE("a plan's processor time and disk are those of the run, to a factor of 1.5") {
+TEST_CASE("a plan's processor time and disk are those of the run, to a factor of 2") {
     const SmallDataset small(2, "composition: paper\nlayers: [instance, boxes]\nexr: true\n");
     replace(small, "size: 64x32\nspp: 2", "size: 192x96\nspp: 16");
     const Json plan = planned(small);
@@ -50,13 +50,13 @@ TEST_CASE("a plan's processor time and disk are those of the run, to a factor of
     REQUIRE(small.command("run", "run").exit_code == 0);
     const double ran = processor_seconds() - before;
     const double said = 4 * plan["scenes"][0]["processor_seconds_per_frame"].get<double>();
-    // Measured pixels are some of the picture's, with few samples; the program's start is not in the plan, and others
-    // share the machine.
+    // Measured pixels are some of the picture's, with few samples. The program's start, a third of so short a run, is
+    // not in the plan, and others share the machine.
     CAPTURE(said);
     CAPTURE(ran);
-    CHECK(said < 1.5 * ran);
-    CHECK(said > ran / 1.5);
-    // One sample instead of 16 leaves noise, which makes files larger.
+    CHECK(said < 2 * ran);
+    CHECK(said > ran / 2);
+    // Told from a small picture of fewer samples.
     const double bytes = plan["bytes"].get<double>(), written = picture_bytes(small.folder / "run");
     CAPTURE(bytes);
     CAPTURE(written);
