@@ -85,6 +85,16 @@ TEST_CASE("flow of what moves is what depth, poses and the motions of objects sa
     CHECK(find(frame, "people/person_1").json.at("motion_next").size() == 2);
     CHECK(find(frame, "traffic/car_2").json.at("motion_next").size() == 1);
     CHECK(!find(frame, "traffic/car_1").moves);
+    // Where nobody says which pixels move, flow of these is not held against depth and poses, and that of the rest is.
+    const Outcome outcome = run_program("render " + (folder / "moving.glb") + " -o " + (folder / "unnamed") +
+                                        " --camera drive --frame 4 --fps 10 --size 192x96 --spp 1 --bounces 0"
+                                        " --environment 100,100,100 --layers flow --progress none");
+    REQUIRE_MESSAGE(outcome.exit_code == 0, outcome.err);
+    LabelFrame unnamed(label_source(folder / "unnamed"));
+    const LabelCheck of_unnamed = check_labels(unnamed);
+    CHECK(of_unnamed.faults == std::vector<std::string>());
+    CHECK(of_unnamed.bending_pixels > 100);
+    CHECK(of_unnamed.flow_pixels + of_unnamed.bending_pixels == check.flow_pixels);
     // Another camera at another time sees the same ids.
     LabelFrame other(render_labels(folder, scene, "moved", 8, "--camera side", motions));
     CHECK(check_labels(other).faults == std::vector<std::string>());

@@ -134,6 +134,7 @@ nlohmann::ordered_json frame_json(const FrameHeader& h, double ev100, const Coun
                    {"exposure_time_s", v.exposure_time}};
     if (h.next) j["camera"]["world_from_camera_next"] = world_from_camera(*h.next, h.scene_origin);
     if (h.previous) j["camera"]["world_from_camera_previous"] = world_from_camera(*h.previous, h.scene_origin);
+    if (h.next) j["things_move"] = h.things_move;
     j["exposure_ev100"] = ev100;
     j["units"] = {{"radiance", "cd/m2, linear Rec.709"}, {"depth", "metres"}};
     for (size_t i = 0; i < h.intensities.size(); ++i)

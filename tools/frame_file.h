@@ -21,6 +21,7 @@ struct FrameHeader {
     LabelLayers labels = {};
     std::map<std::string, std::string> label_entries = {};  // of the EXR file's header
     std::optional<View> next = {}, previous = {};           // with flow: of the frames after and before
+    bool things_move = false;                               // to or from those, not only the camera
 };
 
 /// Header entries of frame.exr: version, scene, settings, camera matrices, units; the exposure is not known yet (NaN).

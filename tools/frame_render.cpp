@@ -92,6 +92,8 @@ RenderedFrame render_to_file(FrameScene frame, const RenderOptions& options, con
     result.header.labels = labels.layers;
     result.header.label_entries = label_header(scene, labels, result.header.intensities);
     if (labels.next) result.header.next = labels.next->view, result.header.previous = labels.previous->view;
+    for (const auto* other : {&frame.next, &frame.previous})
+        result.header.things_move |= *other && !(*other)->instances.empty();
     SeenObjects seen;
     std::optional<FrameWriter> writer;
     if (options.target_error)

@@ -35,6 +35,7 @@ Json record_json(const DatasetItem& item, const PictureFormat& format, const std
     j["exposure_ev100"] = frame.ev100;
     j["residual"] = check.residual();
     j["camera"] = described.at("camera");
+    if (described.contains("things_move")) j["things_move"] = described.at("things_move");
     if (!frame.objects.is_null()) j["objects"] = frame.objects;
     j["settings"] = frame.header.options;
     return j;

@@ -144,6 +144,8 @@ private:
         const std::vector<float> z = frame_.values("Z"), u = frame_.values(layer + ".U"),
                                  v = frame_.values(layer + ".V"), occlusion = frame_.values(layer + ".occlusion");
         const auto moved = motions(layer == "flow_fwd" ? "motion_next" : "motion_previous");
+        // Without ids it is not known of which pixels the things move.
+        const bool unknown = ids_.empty() && frame_.json.value("things_move", false);
         int64_t wrong = 0;
         for (size_t i = 0; i < z.size(); ++i) {
             if (std::isinf(z[i]) || occlusion[i] != float(FlowVisibility::visible)) continue;
@@ -164,6 +166,10 @@ private:
             double error = moves ? std::numeric_limits<double>::quiet_NaN() : error_at(here);
             if (moves)
                 for (const Motion& motion : moved[size_t(object)]) error = std::fmin(error, error_at(motion(here)));
+            if (unknown && !(error < flow_tolerance)) {
+                ++result_.bending_pixels;
+                continue;
+            }
             ++result_.flow_pixels, result_.moving_pixels += moves;
             if (!(error <= result_.largest_flow_error)) result_.largest_flow_error = error;  // NaN stays
             if (!(error < flow_tolerance) && wrong++ == 0)
