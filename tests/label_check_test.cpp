@@ -74,7 +74,7 @@ TEST_CASE("flow of what moves is what depth, poses and the motions of objects sa
     const LabelCheck check = check_labels(frame);
     CHECK(check.faults == std::vector<std::string>());
     CHECK(check.moving_pixels > 1500);  // both flows
-    CHECK(check.bending_pixels == 0);
+    CHECK(check.left_out_pixels == 0);
     CHECK(check.largest_flow_error < 0.01);
     const auto find = [&](LabelFrame& f, const std::string& name) -> FrameObject& {
         for (FrameObject& o : f.objects)
@@ -93,8 +93,8 @@ TEST_CASE("flow of what moves is what depth, poses and the motions of objects sa
     LabelFrame unnamed(label_source(folder / "unnamed"));
     const LabelCheck of_unnamed = check_labels(unnamed);
     CHECK(of_unnamed.faults == std::vector<std::string>());
-    CHECK(of_unnamed.bending_pixels > 100);
-    CHECK(of_unnamed.flow_pixels + of_unnamed.bending_pixels == check.flow_pixels);
+    CHECK(of_unnamed.left_out_pixels > 100);
+    CHECK(of_unnamed.flow_pixels + of_unnamed.left_out_pixels == check.flow_pixels);
     // Another camera at another time sees the same ids.
     LabelFrame other(render_labels(folder, scene, "moved", 8, "--camera side", motions));
     CHECK(check_labels(other).faults == std::vector<std::string>());

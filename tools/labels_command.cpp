@@ -35,10 +35,10 @@ void check_command(const LabelsOptions& o) {
         const LabelCheck check = check_labels(frame);
         for (const std::string& fault : check.faults) std::cout << fault << "\n";
         std::cout << fmt::format(
-            "{}: {} labelled pixels, {} boxes, {} pixels of flow, {} of them of what moves; {} of "
-            "what bends not compared; off by {:.2g} pixels at most\n",
+            "{}: {} labelled pixels, {} boxes, {} pixels of flow, {} of them of what moves; {} "
+            "not compared; off by {:.2g} pixels at most\n",
             source.name, check.labelled_pixels, check.boxes, check.flow_pixels, check.moving_pixels,
-            check.bending_pixels, check.largest_flow_error);
+            check.left_out_pixels, check.largest_flow_error);
         faults += check.faults.size();
     }
     if (faults > 0)

@@ -152,7 +152,7 @@ private:
             const int object = ids_.empty() ? -1 : frame_.object_of(ids_[i]);
             const bool moves = object >= 0 && frame_.objects[size_t(object)].moves;
             if (moves && moved[size_t(object)].empty()) {
-                ++result_.bending_pixels;
+                ++result_.left_out_pixels;
                 continue;
             }
             const Vec3d here = point(i, z[i]);
@@ -167,7 +167,7 @@ private:
             if (moves)
                 for (const Motion& motion : moved[size_t(object)]) error = std::fmin(error, error_at(motion(here)));
             if (unknown && !(error < flow_tolerance)) {
-                ++result_.bending_pixels;
+                ++result_.left_out_pixels;
                 continue;
             }
             ++result_.flow_pixels, result_.moving_pixels += moves;

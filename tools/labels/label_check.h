@@ -17,7 +17,7 @@ struct LabelCheck {
     int64_t boxes = 0;              // compared with the pixels of their objects
     int64_t flow_pixels = 0;        // compared with depth, poses and motions of objects
     int64_t moving_pixels = 0;      // of these, those of objects that move
-    int64_t bending_pixels = 0;     // left out: their objects bend, as skins do, or say no motion; or without
+    int64_t left_out_pixels = 0;    // not compared: their objects bend, as skins do, or say no motion; or without
                                     // instance ids in a scene that moves, those that do not rest
     double largest_flow_error = 0;  // pixels
 };
