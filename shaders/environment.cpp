@@ -76,14 +76,16 @@ std::vector<double> row_edges(int rows) {
 }
 
 /// Side in texels of the cells by which a picture is sampled: the largest whose even density within a cell raises the
-/// second moment of radiance over density by no more than max_growth above that of single texels. Skies are smooth: a
-/// hundredth of the texels will do, and stays in the fastest cache.
+/// second moment of radiance over density by no more than max_growth above that of single texels, and by which the
+/// bands of blocks are still some rows high. Skies are smooth: a small part of the texels will do, and stays in the
+/// cache.
 int cell_side(const Image<Rgb>& means) {
     constexpr double max_growth = 1.05;
+    constexpr int fewest_rows = 2 * Environment::block_rows;
     const int width = means.width, height = means.height;
     const std::vector<double> edges = row_edges(height);
     int side = 1;
-    for (int next = 2; width % next == 0 && height % next == 0; next *= 2) {
+    for (int next = 2; width % next == 0 && height % next == 0 && height / next >= fewest_rows; next *= 2) {
         double power = 0, second_moment = 0;
         for (int y = 0; y < height; y += next)
             for (int x = 0; x < width; x += next) {
@@ -182,7 +184,37 @@ Environment::Environment(Image<Rgb> picture, const std::vector<Disc>& discs) : p
         row_weights[row] = float(column_choice_[row].total());
     });
     row_choice_ = Distribution1D(row_weights);
+    make_blocks();
     add_discs(discs);
+}
+
+void Environment::make_blocks() {
+    if (!(row_choice_.total() > 0)) return;
+    band_of_row_.resize(size_t(rows_));
+    for (int row = 0; row < rows_; ++row) {
+        const double height = 0.5 * (row_edge_[row] + row_edge_[row + 1]);
+        band_of_row_[row] = uint8_t(std::clamp(int((1 - height) / 2 * block_rows), 0, block_rows - 1));
+    }
+    blocks_.resize(block_count);
+    parallel_for(block_count, [&](int index) {
+        Block& block = blocks_[size_t(index)];
+        const int band = index / block_columns, part = index % block_columns;
+        const auto [first, end] = std::equal_range(band_of_row_.begin(), band_of_row_.end(), uint8_t(band));
+        // Those with column * block_columns / columns_ == part.
+        block.first_row = int(first - band_of_row_.begin());
+        block.first_column = (part * columns_ + block_columns - 1) / block_columns;
+        block.end_column = ((part + 1) * columns_ + block_columns - 1) / block_columns;
+        std::vector<float> weights;
+        for (int row = block.first_row; row < int(end - band_of_row_.begin()); ++row) {
+            const double of_row = column_choice_[row].probability(block.first_column, block.end_column);
+            weights.push_back(float(double(row_choice_.probability(row)) * of_row));
+            block.solid_angle +=
+                (row_edge_[row] - row_edge_[row + 1]) * (2 * pi_d / columns_) * (block.end_column - block.first_column);
+        }
+        if (weights.empty()) return;
+        block.row_choice = Distribution1D(weights);
+        block.probability = block.row_choice.total();
+    });
 }
 
 void Environment::measure(const Image<Rgb>& means) {
@@ -281,7 +313,19 @@ EnvironmentSample Environment::estimate_sky(Vec2 u) const {
 
 std::pair<EnvironmentSample, Vec2> Environment::draw_from_picture(Vec2 u) const {
     const auto row = row_choice_.sample(u.y);
-    const auto column = column_choice_[row.cell].sample(u.x);
+    return place(row, column_choice_[row.cell].sample(u.x));
+}
+
+EnvironmentSample Environment::estimate_sky_in(const Block& block, Vec2 u) const {
+    auto row = block.row_choice.sample(u.y);
+    row.cell += block.first_row;
+    const auto column = column_choice_[row.cell].sample(u.x, block.first_column, block.end_column);
+    EnvironmentSample s = place(row, column).first;
+    s.radiance = Rgb(s.pdf * picture_power_);
+    return s;
+}
+
+std::pair<EnvironmentSample, Vec2> Environment::place(Distribution1D::Sample row, Distribution1D::Sample column) const {
     // In double: next to a pole single precision leaves only a few values between the edges of a row.
     const double top = row_edge_[row.cell], bottom = row_edge_[row.cell + 1];
     const double y = top + row.offset * (bottom - top);
@@ -290,7 +334,7 @@ std::pair<EnvironmentSample, Vec2> Environment::draw_from_picture(Vec2 u) const 
     // Of the point that was drawn, not of the direction again: the texels are on their way sooner.
     const Vec2 uv{across, 0.5f - fast_atan2(float(y), radius) * (1 / pi)};
     const Vec3 wi(-radius * std::cos(phi), float(y), -radius * std::sin(phi));
-    return {{wi, Rgb(0), cell_pdf(row.cell, column.cell)}, uv};
+    return {{wi, Rgb(0), cell_pdf(row.cell, column.cell), block_of(row.cell, column.cell)}, uv};
 }
 
 EnvironmentSample Environment::sample_sun(Vec2 u, float u_choice) const {
@@ -304,7 +348,7 @@ EnvironmentSample Environment::sky(Vec3 direction) const {
     const Vec2 uv = equirectangular_from_direction(direction);
     const int column = std::min(int(uv.x * float(columns_)), columns_ - 1);
     const int row = std::min(int(uv.y * float(rows_)), rows_ - 1);
-    return {direction, picture_radiance(uv), cell_pdf(row, column)};
+    return {direction, picture_radiance(uv), cell_pdf(row, column), block_of(row, column)};
 }
 
 EnvironmentSample Environment::sun(Vec3 direction) const {

@@ -8,6 +8,8 @@
 #include "renderer/core/vec.h"
 #include "renderer/image/image.h"
 
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace pluvia {
@@ -54,6 +56,7 @@ struct EnvironmentSample {
     Rgb radiance;   // from there, picture and discs together
     float pdf = 0;  // solid angle, of all strategies together; 0: nothing was
                     // found, radiance is black as well
+    int block = 0;  // of the picture, see Environment::block_count
 };
 
 /// Does not change while light is traced; everything const may be called from any thread.
@@ -98,6 +101,19 @@ public:
     /// sample_sky with a grey radiance, the mean luminance of the cell: the picture is not looked at. Positive.
     EnvironmentSample estimate_sky(Vec2 u) const;
     EnvironmentSample sample_sun(Vec2 u, float u_choice) const;
+
+    /// The picture in blocks, for those who know which parts of the sky can be seen: bands of about equal solid angle,
+    /// from the zenith down, each cut into equal parts of the azimuth. Without a picture there are none.
+    static constexpr int block_rows = 32, block_columns = 32, block_count = block_rows * block_columns;
+    bool has_blocks() const { return !blocks_.empty(); }
+    struct Block {
+        double probability = 0, solid_angle = 0;  // that sample_sky finds it; sr
+        int first_row = 0, first_column = 0, end_column = 0;
+        Distribution1D row_choice;
+    };
+    const Block& block(int index) const { return blocks_[size_t(index)]; }
+    /// estimate_sky within a block of positive probability. pdf is that of estimate_sky all the same.
+    EnvironmentSample estimate_sky_in(const Block& block, Vec2 u) const;
     /// What the samples of a part are in a unit direction. radiance() is the sum of both radiances.
     EnvironmentSample sky(Vec3 direction) const;
     EnvironmentSample sun(Vec3 direction) const;
@@ -122,6 +138,11 @@ private:
     };
     /// A direction without its radiance, and its place in the picture.
     std::pair<EnvironmentSample, Vec2> draw_from_picture(Vec2 u) const;
+    std::pair<EnvironmentSample, Vec2> place(Distribution1D::Sample row, Distribution1D::Sample column) const;
+    int block_of(int row, int column) const {
+        return has_blocks() ? band_of_row_[size_t(row)] * block_columns + column * block_columns / columns_ : 0;
+    }
+    void make_blocks();
     Rgb picture_radiance(Vec2 uv) const;
     float cell_pdf(int row, int column) const;
     bool is_in_disc(size_t disc, Vec3 direction) const;
@@ -138,8 +159,10 @@ private:
     int columns_ = 0, rows_ = 0;  // of cells for sampling
     Distribution1D row_choice_;
     std::vector<Distribution1D> column_choice_;  // per row
-    std::vector<double> row_edge_;               // sine of elevation at the upper edge of each row, and -1
-    float picture_power_ = 0;                    // integral of the picture's luminance over all directions
+    std::vector<Block> blocks_;
+    std::vector<uint8_t> band_of_row_;
+    std::vector<double> row_edge_;  // sine of elevation at the upper edge of each row, and -1
+    float picture_power_ = 0;       // integral of the picture's luminance over all directions
     double sky_illuminance_ = 0;
     Rgb mean_radiance_;
 };

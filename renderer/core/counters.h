@@ -24,6 +24,7 @@ enum class Feature {
     unlit,
     local_light,
     distant_light,
+    guided_sky,
     environment,
     lens,
     streak_test,
@@ -43,11 +44,11 @@ enum class Feature {
 };
 
 constexpr std::array<const char*, std::size_t(Feature::count)> feature_names = {
-    "camera_path",  "texture",       "normal_map",  "vertex_color", "alpha",       "emissive_surface", "pane",
-    "frosted_pane", "glass",         "volume",      "clearcoat",    "sheen",       "anisotropy",       "unlit",
-    "local_light",  "distant_light", "environment", "lens",         "streak_test", "streak_hit",       "streak_path",
-    "paper_streak", "medium_point",  "medium_path", "medium_lamp",  "rain_shadow", "wet_surface",      "puddle",
-    "ripples",      "label",         "matte"};
+    "camera_path",  "texture",       "normal_map",   "vertex_color", "alpha",       "emissive_surface", "pane",
+    "frosted_pane", "glass",         "volume",       "clearcoat",    "sheen",       "anisotropy",       "unlit",
+    "local_light",  "distant_light", "guided_sky",   "environment",  "lens",        "streak_test",      "streak_hit",
+    "streak_path",  "paper_streak",  "medium_point", "medium_path",  "medium_lamp", "rain_shadow",      "wet_surface",
+    "puddle",       "ripples",       "label",        "matte"};
 
 /// Each worker has its own; sums are exact whatever the order.
 struct Counters {

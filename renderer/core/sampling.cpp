@@ -16,14 +16,15 @@ Distribution1D::Distribution1D(std::span<const float> weights) : cdf_(weights.si
     }
 }
 
-Distribution1D::Sample Distribution1D::sample(float u) const {
-    // The product is exact in double, so the guide never starts behind u by more than rounding of the table.
-    uint32_t cell = guide_[std::min(size_t(double(u) * double(size())), guide_.size() - 1)];
-    while (cell > 0 && cdf_[cell] > u) --cell;
-    while (cell + 1 < guide_.size() && cdf_[cell + 1] <= u) ++cell;
+Distribution1D::Sample Distribution1D::find(double u, int first, int end) const {
+    // The guide never starts behind u by more than rounding of the table and of the product.
+    int cell = int(guide_[std::min(size_t(u * double(size())), guide_.size() - 1)]);
+    cell = std::clamp(cell, first, end - 1);
+    while (cell > first && cdf_[cell] > u) --cell;
+    while (cell + 1 < end && cdf_[cell + 1] <= u) ++cell;
     const double width = cdf_[cell + 1] - cdf_[cell];
     const float offset = width > 0 ? float((u - cdf_[cell]) / width) : 0.5f;
-    return {int(cell), std::min(offset, 0x1.fffffep-1f)};
+    return {cell, std::min(offset, 0x1.fffffep-1f)};
 }
 
 }  // namespace pluvia

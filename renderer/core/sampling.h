@@ -77,7 +77,13 @@ public:
         int cell;
         float offset;  // position within the cell, [0, 1): still uniform, to be used again
     };
-    Sample sample(float u) const;
+    Sample sample(float u) const { return find(double(u), 0, size()); }
+    /// Of the cells first <= cell < end alone, in proportion to their probabilities, which are not all zero.
+    Sample sample(float u, int first, int end) const {
+        return find(cdf_[first] + double(u) * (cdf_[end] - cdf_[first]), first, end);
+    }
+    /// Of the same cells.
+    double probability(int first, int end) const { return cdf_[end] - cdf_[first]; }
     /// Probability of a cell.
     float probability(int cell) const { return float(cdf_[cell + 1] - cdf_[cell]); }
     int size() const { return int(cdf_.size()) - 1; }
@@ -85,6 +91,8 @@ public:
     double total() const { return total_; }
 
 private:
+    Sample find(double u, int first, int end) const;
+
     std::vector<double> cdf_;  // size() + 1 values from 0 to 1
     // Cell in which each of size() equal steps of u begins: from there the cell of u is two steps away on average,
     // whatever the weights. Source: Chen and Asau 1974, "On Generating Random Variates from an Empirical Distribution".

@@ -182,11 +182,6 @@ LightSample Lights::directional_light(float u_choice, float probability) const {
             directional_choice_.probability(choice.cell) * probability, true};
 }
 
-LightSample Lights::estimate_sky(Vec2 u) const {
-    const EnvironmentSample s = environment_->estimate_sky(u);
-    return {s.wi, std::numeric_limits<float>::infinity(), s.radiance, s.pdf, false};
-}
-
 LightSample Lights::sample_sun(float u_choice, Vec2 u) const {
     if (u_choice >= disc_share_)
         return directional_light((u_choice - disc_share_) / (1 - disc_share_), 1 - disc_share_);

@@ -59,11 +59,9 @@ public:
     float pdf_distant(Vec3 direction) const { return environment_share_ * environment_->pdf(direction); }
 
     /// The same in two samples: one of the sky, the other of what shines from few directions: sun, moon and
-    /// directional lights.
+    /// directional lights. That of the sky is Environment::estimate_sky or sky_guide.h.
     bool has_sky() const { return environment_->has_sky(); }
     bool has_sun() const { return environment_->has_sun() || !directional_.empty(); }
-    /// With grey in place of the sky's radiance, which is environment().sky(wi): enough to weigh it.
-    LightSample estimate_sky(Vec2 u) const;
     LightSample sample_sun(float u_choice, Vec2 u) const;
     /// Pdf with respect to solid angle at which sample_sun picks this direction of sun and moon. Of the sky it is that
     /// of Environment::sky().

@@ -1,9 +1,11 @@
 #include "renderer/transport/direct_light.h"
 
 #include "renderer/transport/media.h"
+#include "renderer/transport/sky_guide.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace pluvia {
@@ -119,21 +121,23 @@ Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light
     }
 }
 
-Rgb distant_light(const Lights& lights, const RayOrigin& origin, Vec3 direction) {
+Rgb distant_light(const Lights& lights, const SkyGuide* guide, const RayOrigin& origin, Vec3 direction) {
     const EnvironmentSample sky = lights.environment().sky(direction), sun = lights.environment().sun(direction);
     if (!(origin.pdf > 0)) return sky.radiance + sun.radiance;
     if (!origin.parts_sky_and_sun)
         return (sky.radiance + sun.radiance) * power_heuristic(origin.pdf, lights.pdf_distant(direction));
-    return sky.radiance * power_heuristic(origin.pdf, sky.pdf) +
+    const float sky_pdf = guide ? guide->pdf(origin.receiver, sky) : sky.pdf;
+    return sky.radiance * power_heuristic(origin.pdf, sky_pdf) +
            sun.radiance * power_heuristic(origin.pdf, lights.pdf_sun(sun));
 }
 
-Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& v, Counters& counters) {
+Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const SkyGuide* guide, const Vertex& v,
+                 Counters& counters) {
     Rgb sum;
     const Vec2 choice = v.u.get_2d(Draw::light_choice);
+    const Receiver receiver = receiver_at(v.surface, v.bsdf);
     if (lights.has_local()) {
         counters.count(Feature::local_light);
-        const Receiver receiver = receiver_at(v.surface, v.bsdf);
         Pick pick(v.u.get_1d(Draw::light_pick));
         const int count = v.light_samples;
         std::array<Lights::LocalPoint, most_light_samples> points;
@@ -150,7 +154,10 @@ Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& 
     if (lights.has_sky() || lights.has_sun()) counters.count(Feature::distant_light);
     if (lights.has_sky()) {
         Pick pick(0);
-        const LightSample light = lights.estimate_sky(v.u.get_2d(Draw::sky_point));
+        const Vec2 u = v.u.get_2d(Draw::sky_point);
+        const EnvironmentSample sky =
+            guide ? guide->estimate(receiver, u, counters) : lights.environment().estimate_sky(u);
+        const LightSample light{sky.wi, std::numeric_limits<float>::infinity(), sky.radiance, sky.pdf, false};
         pick.add(v, light, 1);
         const auto radiance = [&] { return lights.environment().sky(light.wi).radiance; };
         sum += visible_part(ray_scene, pick, v, Draw::sky_point, radiance, counters);

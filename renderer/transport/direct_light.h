@@ -13,6 +13,8 @@
 
 namespace pluvia {
 
+class SkyGuide;
+
 constexpr int most_light_samples = 16;
 
 /// Samples of lamps that compete at a vertex for one shadow ray, where `at_first` do at the first. Fewer after
@@ -32,8 +34,9 @@ struct RayOrigin {
     float weight_of_local(float light_pdf) const { return power_heuristic(pdf, float(local_samples) * light_pdf); }
 };
 
-/// Light of the environment that a ray meets, weighed against samples of it.
-Rgb distant_light(const Lights& lights, const RayOrigin& origin, Vec3 direction);
+/// Light of the environment that a ray meets, weighed against samples of it. guide: that they were drawn with; null:
+/// none.
+Rgb distant_light(const Lights& lights, const SkyGuide* guide, const RayOrigin& origin, Vec3 direction);
 
 /// For what lights are chosen: those below the horizon, too, where they shine through.
 inline Receiver receiver_at(const Surface& surface, const PreparedBsdf& bsdf) {
@@ -57,7 +60,9 @@ struct Vertex {
 Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,
                   Counters& counters);
 
-/// Radiance that the surface scatters towards the ray it was met by, weighed against sampling the Bsdf.
-Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const Vertex& vertex, Counters& counters);
+/// Radiance that the surface scatters towards the ray it was met by, weighed against sampling the Bsdf. guide: of
+/// samples of the sky; null: none.
+Rgb direct_light(const RayScene& ray_scene, const Lights& lights, const SkyGuide* guide, const Vertex& vertex,
+                 Counters& counters);
 
 }  // namespace pluvia

@@ -30,7 +30,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (!ray_scene_->closest_hit(ray, {sampler.key(Draw::opacity, bounce)}, hit, counters)) {
             if (lights_->environment().is_black()) return result;
             counters.count(Feature::environment);
-            result.radiance += throughput * distant_light(*lights_, origin, ray.direction);
+            result.radiance += throughput * distant_light(*lights_, sky_guide_, origin, ray.direction);
             return result;
         }
         if (bounce == first_bounce) result.distance = hit.distance, result.first = hit.point;
@@ -57,7 +57,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
             result.radiance +=
-                throughput * direct_light(*ray_scene_, *lights_,
+                throughput * direct_light(*ray_scene_, *lights_, sky_guide_,
                                           {*scene_, surface, bsdf, basis, sampler, u, bounce, light_samples,
                                            relevance(throughput, settings_.shadow_roulette, worth)},
                                           counters);

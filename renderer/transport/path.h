@@ -35,10 +35,16 @@ struct PathResult {
 
 class PathTracer {
 public:
-    /// Keeps references. wet_ground: null where all is dry.
+    /// Keeps references. wet_ground: null where all is dry. sky_guide: null: the sky is sampled as if all of it were
+    /// visible.
     PathTracer(const Scene& scene, const RayScene& ray_scene, const Lights& lights, const PathSettings& settings,
-               const WetGround* wet_ground = nullptr)
-        : scene_(&scene), ray_scene_(&ray_scene), lights_(&lights), settings_(settings), wet_ground_(wet_ground) {}
+               const WetGround* wet_ground = nullptr, const SkyGuide* sky_guide = nullptr)
+        : scene_(&scene),
+          ray_scene_(&ray_scene),
+          lights_(&lights),
+          settings_(settings),
+          wet_ground_(wet_ground),
+          sky_guide_(sky_guide) {}
 
     /// bounce: scattering events before this ray; it selects the random numbers and counts towards max_bounces.
     PathResult trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
@@ -53,6 +59,7 @@ private:
     const Lights* lights_;
     PathSettings settings_;
     const WetGround* wet_ground_;
+    const SkyGuide* sky_guide_;
 };
 
 }  // namespace pluvia

@@ -5,6 +5,7 @@
 #include "renderer/transport/film.h"
 #include "renderer/transport/passes.h"
 #include "renderer/transport/shelter.h"
+#include "renderer/transport/sky_sights.h"
 
 #include <chrono>
 #include <mutex>
@@ -153,7 +154,12 @@ RenderReport render_frame(const Scene& scene, const Environment& environment, co
     const double time = view.shutter_open + view.exposure_time / 2;
     if (settings.wet.any())
         wet_ground.emplace(scene, wet_shadow ? *wet_shadow : *shadow, settings.wet, time, settings.rain.seed);
-    const PathTracer tracer(scene, ray_scene, lights, settings.path, wet_ground ? &*wet_ground : nullptr);
+    const WetGround* const wet = wet_ground ? &*wet_ground : nullptr;
+    std::optional<SkyGuide> sky_guide;
+    if (!picture && is_worth_guiding(environment, lights.has_local()))
+        sky_guide.emplace(environment,
+                          find_sky_sights(ray_scene, environment, view, wet, settings.seed, report.counters));
+    const PathTracer tracer(scene, ray_scene, lights, settings.path, wet, sky_guide ? &*sky_guide : nullptr);
 
     std::optional<StreakBins> bins;
     std::optional<RainMedium> medium;
