@@ -3,7 +3,9 @@
 #include "renderer/transport/camera_ray.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/sky_sights.h"
+#include "shaders/sky.h"
 #include "tests/environments.h"
+#include "tests/skies.h"
 #include "tests/statistics.h"
 #include "tests/test_scenes.h"
 
@@ -144,4 +146,30 @@ TEST_CASE("between high walls guided samples give the same light with less than 
     CHECK(error < 0.01 * of_plain.mean());
     CHECK(noise_guided < 0.5 * noise_plain);
     CHECK(counters[Feature::guided_sky] > 0);
+}
+
+TEST_CASE("a guide is made where the sky lights most, and for no other picture") {
+    const auto at = [](double elevation, double cover) {
+        SkySettings settings;
+        settings.sun_elevation = radians_from_degrees(elevation), settings.clouds.cover = cover;
+        return make_sky(standard_sky_tables(), settings);
+    };
+    CHECK(is_worth_guiding(at(50, 1), true));
+    CHECK(is_worth_guiding(at(-3, 0), true));
+    CHECK_FALSE(is_worth_guiding(at(50, 0), false));  // the sun lights more
+    CHECK_FALSE(is_worth_guiding(at(-30, 1), true));  // lamps do
+    CHECK(is_worth_guiding(at(-30, 1), false));
+    CHECK_FALSE(is_worth_guiding(Environment::uniform(Rgb(1)), false));
+    Image<Rgb> with_sun(256, 128, Rgb(1));
+    with_sun.at(44, 20) = Rgb(500000);  // the others together are 32767
+    CHECK_FALSE(is_worth_guiding(Environment(with_sun), false));
+
+    Scene scene;
+    add_quad(scene, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, lambert(Rgb(0.5f)));
+    const View view = look_at({0, 2, 0}, {1, 0, 0}, 8, 8, 8);
+    const auto guided = [&](const Environment& environment) {
+        return render_picture(scene, environment, view, {.samples = 2}).report.counters[Feature::guided_sky];
+    };
+    CHECK(guided(at(50, 1)) > 0);
+    CHECK(guided(at(50, 0)) == 0);
 }
