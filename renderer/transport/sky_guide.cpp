@@ -64,7 +64,7 @@ SkyGuide::SkyGuide(const Environment& environment, const std::vector<SkySight>& 
         if (environment.block(sight.block).probability > 0)
             all.push_back({place_of(sight.receiver), index_of_block_[size_t(sight.block)]});
     std::sort(all.begin(), all.end(), [](const Sight& a, const Sight& b) { return a.place < b.place; });
-    learn(all, levels, Shares(lit_blocks_.size(), 1 / float(lit_blocks_.size())));
+    learn_cells(all, levels - 1, Shares(lit_blocks_.size(), 1 / float(lit_blocks_.size())));
     fill_slots();
 }
 
@@ -91,27 +91,29 @@ void SkyGuide::find_blocks() {
     }
 }
 
-void SkyGuide::learn(std::span<const Sight> sights, int level, const Shares& larger) {
-    const Shares* around = &larger;
-    Shares shares;
-    if (level < levels) {
-        // Whole numbers, so that the order of the sights does not matter.
-        std::vector<uint32_t> sixteenths(larger.size());
-        for (const Sight& sight : sights)
-            for (size_t k = 0; k < spread.size(); ++k) sixteenths[size_t(near_[size_t(sight.block)][k])] += spread[k];
-        const float sum = float(sights.size()) + sights_of_larger;
-        for (size_t b = 0; b < larger.size(); ++b)
-            shares.push_back((float(sixteenths[b]) / 16 + larger[b] * sights_of_larger) / sum);
-        keys_.push_back(key_at(sights[0].place, level));
-        add_cell(shares);
-        around = &shares;
-    }
-    if (level == 0) return;
+void SkyGuide::learn_cells(std::span<const Sight> sights, int level, const Shares& larger) {
     for (size_t begin = 0, end; begin < sights.size(); begin = end) {
-        const uint64_t key = key_at(sights[begin].place, level - 1);
-        for (end = begin; end < sights.size() && key_at(sights[end].place, level - 1) == key;) ++end;
-        if (end - begin >= least_sights) learn(sights.subspan(begin, end - begin), level - 1, *around);
+        const uint64_t key = key_at(sights[begin].place, level);
+        for (end = begin; end < sights.size() && key_at(sights[end].place, level) == key;) ++end;
+        if (end - begin < least_sights) continue;
+        const std::span<const Sight> within = sights.subspan(begin, end - begin);
+        const Shares shares = shares_of(within, larger);
+        keys_.push_back(key);
+        add_cell(shares);
+        if (level > 0) learn_cells(within, level - 1, shares);
     }
+}
+
+SkyGuide::Shares SkyGuide::shares_of(std::span<const Sight> sights, const Shares& larger) const {
+    // Whole numbers, so that the order of the sights does not matter.
+    std::vector<uint32_t> sixteenths(larger.size());
+    for (const Sight& sight : sights)
+        for (size_t k = 0; k < spread.size(); ++k) sixteenths[size_t(near_[size_t(sight.block)][k])] += spread[k];
+    const float sum = float(sights.size()) + sights_of_larger;
+    Shares shares(larger.size());
+    for (size_t b = 0; b < larger.size(); ++b)
+        shares[b] = (float(sixteenths[b]) / 16 + larger[b] * sights_of_larger) / sum;
+    return shares;
 }
 
 void SkyGuide::add_cell(const Shares& shares) {

@@ -48,8 +48,9 @@ private:
     };
 
     void find_blocks();
-    /// Learns the cell of all these sights and those within it.
-    void learn(std::span<const Sight> sights, int level, const Shares& larger);
+    /// The cells of a level that these sights fall into, and those within them. larger: what is known of all of them.
+    void learn_cells(std::span<const Sight> sights, int level, const Shares& larger);
+    Shares shares_of(std::span<const Sight> sights, const Shares& larger) const;
     void add_cell(const Shares& shares);
     void fill_slots();
     /// For each part the lit block that it belongs to, in rising order. Empty where nothing is known.
