@@ -163,6 +163,10 @@ TEST_CASE("a guide is made where the sky lights most, and for no other picture")
     Image<Rgb> with_sun(256, 128, Rgb(1));
     with_sun.at(44, 20) = Rgb(500000);  // the others together are 32767
     CHECK_FALSE(is_worth_guiding(Environment(with_sun), false));
+    Image<Rgb> with_wide_sun(256, 128, Rgb(1));
+    for (int y = 40; y < 52; ++y)
+        for (int x = 100; x < 112; ++x) with_wide_sun.at(x, y) = Rgb(220);
+    CHECK_FALSE(is_worth_guiding(Environment(with_wide_sun), false));
 
     Scene scene;
     add_quad(scene, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, lambert(Rgb(0.5f)));
