@@ -111,6 +111,13 @@ TEST_CASE("an event expected once in a thousand million never happens in a thous
     CHECK(sum == 0);
 }
 
+TEST_CASE("counts for one mean and many keys are those for each key alone") {
+    for (double mean : {0.01, 3.0, 9.99, 10.0, 30.0}) {
+        const PoissonCounts counts(mean);
+        for (uint64_t key = 0; key < 20000; ++key) REQUIRE(counts.sample(key) == sample_poisson(mean, key));
+    }
+}
+
 TEST_CASE("each intensity alone has Poisson counts, Marshall-Palmer diameters and its flux of water") {
     const DropPopulation population{21, {2, 0, -1}, 0};
     for (double time : {0.0, 86400.5}) {

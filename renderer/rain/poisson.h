@@ -1,6 +1,7 @@
 // Poisson-distributed counts as a pure function of a key. Used by drop_population.h for the number of drops in a cell.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace pluvia {
@@ -9,5 +10,17 @@ namespace pluvia {
 /// Sources: inversion by sequential search below a mean of 10; above it Hoermann 1993, "The transformed rejection
 /// method for generating Poisson random variables", algorithm PTRS.
 int64_t sample_poisson(double mean, uint64_t key);
+
+/// The same numbers, quicker where many keys share a mean.
+class PoissonCounts {
+public:
+    explicit PoissonCounts(double mean = 0);
+
+    int64_t sample(uint64_t key) const;
+
+private:
+    double mean_;
+    std::array<double, 61> probabilities_ = {};  // of 0, 1, ... events, where the mean is below 10
+};
 
 }  // namespace pluvia

@@ -3,7 +3,6 @@
 #include "renderer/core/random.h"
 #include "renderer/core/units.h"
 #include "renderer/rain/drop_size.h"
-#include "renderer/rain/poisson.h"
 
 #include <algorithm>
 
@@ -31,6 +30,7 @@ Ripples::Kind Ripples::make_kind(double intensity, double d1, double d2, double 
     kind.speed = float((standard_gravity + 3 * tension * k * k) / (2 * omega));
     kind.damping = float(2 * viscosity * k * k);
     kind.reach = kind.speed * float(life) + 8 * kind.drop;
+    kind.counts = PoissonCounts(kind.rate * kind.reach * kind.reach * life);
     return kind;
 }
 
@@ -56,7 +56,7 @@ Vec2 Ripples::slope(const Kind& kind, uint64_t key, Vec3d world, double time) co
         for (int j = -1; j <= 1; ++j)
             for (int i = -1; i <= 1; ++i) {
                 const uint64_t cell = hash_key(key, int64_t(column) + i, int64_t(row) + j, int64_t(slab) + k);
-                const int64_t count = sample_poisson(kind.rate * edge * edge * kind.life, cell);
+                const int64_t count = kind.counts.sample(cell);
                 for (int64_t n = 0; n < count; ++n) {
                     const uint64_t a = mix_bits(cell + uint64_t(n) * 0x9e3779b97f4a7c15ull + 1), b = mix_bits(a);
                     const float age = float((w - slab - k - unit_double(b)) * kind.life);

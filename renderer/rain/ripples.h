@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/core/vec.h"
+#include "renderer/rain/poisson.h"
 
 #include <array>
 #include <cstdint>
@@ -28,6 +29,7 @@ private:
         float drop = 0;                                 // diameter, metres
         float wave_number = 0, speed = 0, damping = 0;  // 1/m, m/s, 1/s
         float reach = 0;                                // metres
+        PoissonCounts counts;                           // in a cell of place and time
     };
     static Kind make_kind(double intensity, double d1, double d2, double life);
     Vec2 slope(const Kind& kind, uint64_t key, Vec3d world, double time) const;

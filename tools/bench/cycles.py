@@ -4,9 +4,9 @@ Usage: blender -b --factory-startup -P tools/bench/cycles.py -- SCENE.glb OUT.ex
        [FRAME.json]] [--lambert] [--conform OUT.exr] [--frame N]
 ENVIRONMENT: an HDR or EXR file, or R,G,B. FRAME.json: of a frame that Pluvia has rendered, whose camera is taken
 instead of the file's. --lambert: what does not glow reflects as Lambert's law has it; without, only materials named
-"lambert..." do. --conform: a second picture with
-materials as the glTF specification has them, by cycles_gltf.py. SEED: several, with commas between, where OUT.exr has a
-%d. --frame: of an animation, at 24 a second. No denoising, clamping or adaptive sampling; 32 bounces; box filter of a pixel.
+"lambert..." do. --conform: a second picture with materials as the glTF specification has them, by cycles_gltf.py. SEED:
+several, with commas between, where OUT.exr has a %d. --frame: of an animation, at 24 a second. No denoising, clamping or
+adaptive sampling; 32 bounces; box filter of a pixel.
 """
 import os
 import sys
