@@ -68,6 +68,7 @@ int64_t sample_poisson(double mean, uint64_t key) {
 }
 
 PoissonCounts::PoissonCounts(double mean) : mean_(mean) {
+    static_assert(std::tuple_size_v<decltype(probabilities_)> == most_searched + 1);
     probabilities_[0] = std::exp(-mean);
     for (size_t k = 1; k < probabilities_.size(); ++k)
         probabilities_[k] = next_probability(probabilities_[k - 1], mean, int64_t(k));

@@ -67,7 +67,8 @@ std::vector<std::string> write_pyramids(const Scene& scene, const std::string& f
     return paths;
 }
 
-/// look(place): red. Prints processor nanoseconds per look-up, the least of five runs, and the mean of what was read.
+/// Prints nanoseconds per look-up and thread, the least of five runs, and the mean of what was read. look: gives the
+/// sum of what it reads in a batch.
 void report(const char* name, bool scattered, const std::function<double(bool scattered, int batch)>& look) {
     for (int threads : {1, 2}) {
         set_thread_count(threads);
