@@ -17,19 +17,16 @@ double log_factorial(double k) {
 }
 
 constexpr double least_rejected_mean = 10;  // below it counts are searched for from zero
-// The bound of the search only matters where u lies within rounding of 1: no count beyond it has a probability above
-// 2^-53.
-constexpr int64_t most_searched = 60;
 
-double next_probability(double probability, double mean, int64_t count) {
-    return probability * (mean / double(count));
-}
-
-/// probability(count): asked for 0, 1, ...
-template <class Probability>
-int64_t search_from_zero(double u, Probability probability) {
+int64_t search_from_zero(double mean, double chance_of_none, double u) {
+    double probability = chance_of_none;
     int64_t count = 0;
-    for (double p = probability(0); u >= p && count < most_searched; p = probability(count)) u -= p, ++count;
+    // The bound only matters where u lies within rounding of 1: no count beyond it has a probability above 2^-53.
+    while (u >= probability && count < 60) {
+        u -= probability;
+        ++count;
+        probability *= mean / double(count);
+    }
     return count;
 }
 
@@ -45,10 +42,7 @@ double log_probability(double k, double mean) {
 }  // namespace
 
 int64_t sample_poisson(double mean, uint64_t key) {
-    if (mean < least_rejected_mean)
-        return search_from_zero(unit_double(hash_key(key)), [mean, p = 0.0](int64_t count) mutable {
-            return p = count == 0 ? std::exp(-mean) : next_probability(p, mean, count);
-        });
+    if (mean < least_rejected_mean) return search_from_zero(mean, std::exp(-mean), unit_double(hash_key(key)));
 
     const double b = 0.931 + 2.53 * std::sqrt(mean);
     const double a = -0.059 + 0.02483 * b;
@@ -67,16 +61,11 @@ int64_t sample_poisson(double mean, uint64_t key) {
     }
 }
 
-PoissonCounts::PoissonCounts(double mean) : mean_(mean) {
-    static_assert(std::tuple_size_v<decltype(probabilities_)> == most_searched + 1);
-    probabilities_[0] = std::exp(-mean);
-    for (size_t k = 1; k < probabilities_.size(); ++k)
-        probabilities_[k] = next_probability(probabilities_[k - 1], mean, int64_t(k));
-}
+PoissonCounts::PoissonCounts(double mean) : mean_(mean), chance_of_none_(std::exp(-mean)) {}
 
 int64_t PoissonCounts::sample(uint64_t key) const {
     if (mean_ >= least_rejected_mean) return sample_poisson(mean_, key);
-    return search_from_zero(unit_double(hash_key(key)), [&](int64_t count) { return probabilities_[size_t(count)]; });
+    return search_from_zero(mean_, chance_of_none_, unit_double(hash_key(key)));
 }
 
 }  // namespace pluvia

@@ -1,7 +1,6 @@
 // Poisson-distributed counts as a pure function of a key. Used by drop_population.h for the number of drops in a cell.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 namespace pluvia {
@@ -19,8 +18,7 @@ public:
     int64_t sample(uint64_t key) const;
 
 private:
-    double mean_;
-    std::array<double, 61> probabilities_ = {};  // of 0, 1, ... events, where the mean is below 10
+    double mean_, chance_of_none_;
 };
 
 }  // namespace pluvia
