@@ -149,24 +149,29 @@ TEST_CASE("between high walls guided samples give the same light with less than 
 }
 
 TEST_CASE("a guide is made where the sky lights most, and for no other picture") {
+    Scene dark, lit;
+    lit.lights.push_back({.position = {0, 5, 0}, .intensity = Rgb(100)});
+    const auto is_worth = [&](const Environment& environment, bool has_lamps) {
+        return is_worth_guiding(Lights(has_lamps ? lit : dark, environment));
+    };
     const auto at = [](double elevation, double cover) {
         SkySettings settings;
         settings.sun_elevation = radians_from_degrees(elevation), settings.clouds.cover = cover;
         return make_sky(standard_sky_tables(), settings);
     };
-    CHECK(is_worth_guiding(at(50, 1), true));
-    CHECK(is_worth_guiding(at(-3, 0), true));
-    CHECK_FALSE(is_worth_guiding(at(50, 0), false));  // the sun lights more
-    CHECK_FALSE(is_worth_guiding(at(-30, 1), true));  // lamps do
-    CHECK(is_worth_guiding(at(-30, 1), false));
-    CHECK_FALSE(is_worth_guiding(Environment::uniform(Rgb(1)), false));
+    CHECK(is_worth(at(50, 1), true));
+    CHECK(is_worth(at(-3, 0), true));
+    CHECK_FALSE(is_worth(at(50, 0), false));  // the sun lights more
+    CHECK_FALSE(is_worth(at(-30, 1), true));  // lamps do
+    CHECK(is_worth(at(-30, 1), false));
+    CHECK_FALSE(is_worth(Environment::uniform(Rgb(1)), false));
     Image<Rgb> with_sun(256, 128, Rgb(1));
     with_sun.at(44, 20) = Rgb(500000);  // the others together are 32767
-    CHECK_FALSE(is_worth_guiding(Environment(with_sun), false));
+    CHECK_FALSE(is_worth(Environment(with_sun), false));
     Image<Rgb> with_wide_sun(256, 128, Rgb(1));
     for (int y = 40; y < 52; ++y)
         for (int x = 100; x < 112; ++x) with_wide_sun.at(x, y) = Rgb(220);
-    CHECK_FALSE(is_worth_guiding(Environment(with_wide_sun), false));
+    CHECK_FALSE(is_worth(Environment(with_wide_sun), false));
 
     Scene scene;
     add_quad(scene, {-5, 0, 5}, {10, 0, 0}, {0, 0, -10}, lambert(Rgb(0.5f)));

@@ -33,7 +33,7 @@ TEST_CASE("light samples and roulette change the mean of no picture") {
     };
     for (const int n : {1, 2, 3, most_light_samples})
         check_same("light samples", [=](PathSettings& p) { p.light_samples = n; });
-    for (const int n : {0, 1, 6}) check_same("path roulette", [=](PathSettings& p) { p.first_roulette_bounce = n; });
+    for (const float c : {0.05f, 1.0f}) check_same("path roulette", [=](PathSettings& p) { p.path_roulette = c; });
     for (const float c : {0.0f, 1.0f}) check_same("shadow roulette", [=](PathSettings& p) { p.shadow_roulette = c; });
 }
 

@@ -9,6 +9,8 @@
 namespace pluvia {
 namespace {
 
+constexpr double outshone_by_lamps = 10;  // horizontal illuminance in lux
+
 /// Of an emissive triangle, over a few fixed points. No component is zero where the texture might shine: a light that
 /// is never chosen would be missing from the picture.
 Rgb mean_emission(const Scene& scene, int instance, int triangle) {
@@ -41,6 +43,7 @@ Lights::Lights(const Scene& scene, const Environment& environment)
     for (size_t i = 0; i < scene.instances.size(); ++i)
         if (scene.materials[scene.meshes[scene.instances[i].mesh].material].emits()) add_triangles(int(i), all);
     tree_ = LightTree(all);
+    lamps_outshine_sky_ = has_local() && environment.sky_illuminance() < outshone_by_lamps;
 
     std::vector<float> lux;
     for (const PunctualLight& light : directional_) lux.push_back(luminance(light.intensity));

@@ -28,6 +28,8 @@ public:
     Lights(const Scene& scene, const Environment& environment);
 
     bool has_local() const { return !tree_.empty(); }
+    /// Whether they light streets more than the sky does, as at night in a city.
+    bool lamps_outshine_sky() const { return lamps_outshine_sky_; }
     bool has_distant() const { return !environment_->is_black() || !directional_.empty(); }
     const Environment& environment() const { return *environment_; }
 
@@ -94,6 +96,7 @@ private:
     float environment_share_ = 1;  // probability that sample_distant asks the environment
     float disc_share_ = 1;         // and sample_sun its discs
     LightTree tree_;
+    bool lamps_outshine_sky_ = false;
 };
 
 }  // namespace pluvia

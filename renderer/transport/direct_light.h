@@ -28,7 +28,7 @@ struct RayOrigin {
     float pdf = 0;      // of the ray's direction, per solid angle; 0 = no light sample was drawn there (camera, delta)
     Receiver receiver;  // what the light samples were drawn for
     int local_samples = 1;
-    bool parts_sky_and_sun = false;  // of these one sample each, instead of one of all that is distant
+    bool parts_sky_and_sun = false;  // of these samples each, instead of one of all that is distant
 
     /// Weight of light that the ray has met against samples of it, where pdf > 0. light_pdf: of one sample.
     float weight_of_local(float light_pdf) const { return power_heuristic(pdf, float(local_samples) * light_pdf); }
@@ -55,6 +55,10 @@ struct Vertex {
     int light_samples;  // of lamps, up to most_light_samples
     float relevance;    // 1 / (light at the vertex, in cd/m2, below which a shadow ray is worth tracing only at times)
 };
+
+/// Weight of a shadow ray that brings at most `expected`, in cd/m2, where relevance is as for a vertex: 0 where
+/// roulette leaves it out. key: of a random number.
+float shadow_ray_weight(float expected, float relevance, uint64_t key);
 
 /// Share of a light sample that arrives at a point: 1, 0, or what smooth panes on the way let straight through.
 Rgb visible_share(const RayScene& ray_scene, Vec3 from, const LightSample& light, OpacityTest opacity,

@@ -10,12 +10,6 @@ namespace {
 // gathers has a finite mean only while a^2 < max_survival: 0.95 would lose rooms whiter than 0.975 in noise.
 constexpr float max_survival = 0.999f;
 
-/// See Vertex::relevance. Infinite where all shadow rays are traced.
-float relevance(Rgb throughput, float shadow_roulette, const PathWorth& worth) {
-    const float least = shadow_roulette * worth.pixel_luminance;
-    return least > 0 ? max_component(throughput) / least : std::numeric_limits<float>::infinity();
-}
-
 }  // namespace
 
 PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
@@ -56,11 +50,10 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         const int light_samples = light_samples_at(settings_.light_samples, bounce);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
-            result.radiance +=
-                throughput * direct_light(*ray_scene_, *lights_, sky_guide_,
-                                          {*scene_, surface, bsdf, basis, sampler, u, bounce, light_samples,
-                                           relevance(throughput, settings_.shadow_roulette, worth)},
-                                          counters);
+            result.radiance += throughput * direct_light(*ray_scene_, *lights_, sky_guide_,
+                                                         {*scene_, surface, bsdf, basis, sampler, u, bounce,
+                                                          light_samples, relevance(throughput, worth)},
+                                                         counters);
 
         const auto next = sample(bsdf, lobe.x, u.get_2d(Draw::bsdf));
         if (!next) return result;
@@ -69,8 +62,9 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if ((dot(wi, surface.geometric_normal) > 0) == next->transmitted) return result;
         throughput *= next->weight;
         if (is_black(throughput)) return result;
-        if (bounce >= settings_.first_roulette_bounce || worth.importance < 1) {
-            const float survival = std::min(max_survival, worth.importance * max_component(throughput));
+        if (bounce > 0) {
+            const float share = worth.importance * max_component(throughput);
+            const float survival = std::min(max_survival, share / settings_.path_roulette);
             if (u.get_1d(Draw::roulette) >= survival) return result;
             throughput *= 1 / survival;
         }

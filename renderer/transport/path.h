@@ -14,8 +14,10 @@ struct PathSettings {
     /// Samples of lamps that compete for a shadow ray at a path's first vertex, 1 to most_light_samples: half as many
     /// at the second, a quarter from there on.
     int light_samples = 8;
-    /// Paths live for this many scattering events, then survive with the probability of their throughput.
-    int first_roulette_bounce = 2;
+    /// Paths that carry less than this share of the light they meet end by roulette, so that those that live on carry
+    /// that share; not before their second scattering event. At 0.25 time times error is least on streets by day, at
+    /// dusk and at night.
+    float path_roulette = 0.25f;
     /// Shadow rays that bring less than this share of a pixel's light are traced for some samples only. What they add
     /// to a sample's relative variance is at most this times the share of that light. 0: all are traced.
     float shadow_roulette = 0.25f;
@@ -24,7 +26,7 @@ struct PathSettings {
 /// What the light of a path is worth, which decides how often roulette ends it or leaves out a shadow ray.
 struct PathWorth {
     float pixel_luminance = 0;  // of the pixel as far as known, in cd/m2; 0: unknown
-    float importance = 1;       // below 1 where the path brings little to its pixel: roulette then sets in at once
+    float importance = 1;       // share of what the path brings that its pixel gets
 };
 
 struct PathResult {
@@ -49,6 +51,13 @@ public:
     /// bounce: scattering events before this ray; it selects the random numbers and counts towards max_bounces.
     PathResult trace(Ray ray, RayOrigin origin, const Sampler& sampler, int bounce, Counters& counters,
                      const PathWorth& worth = {}) const;
+
+    /// See Vertex::relevance. Infinite where all shadow rays are traced.
+    float relevance(Rgb throughput, const PathWorth& worth) const {
+        const float least = settings_.shadow_roulette * worth.pixel_luminance;
+        const float share = worth.importance * max_component(throughput);
+        return least > 0 ? share / least : std::numeric_limits<float>::infinity();
+    }
 
     const Lights& lights() const { return *lights_; }
     const RayScene& ray_scene() const { return *ray_scene_; }

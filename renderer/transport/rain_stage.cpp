@@ -133,7 +133,9 @@ void RainStage::scatter(Scatterer scatterer, const CameraSegment& segment, const
         [&](float weight) { return worth(weight * brightness, segment, settings_.medium_roulette); },
         [&] {
             counters.count(Feature::medium_path);
-            return event.trace(segment.background_luminance, counters);
+            // The same for all intensities, so that what one gets does not depend on the others.
+            const auto importance = float(settings_.medium_roulette);
+            return event.trace({segment.background_luminance, importance}, counters);
         });
     if (lights.has_local()) scatter_near_lamp(scatterer, segment, in_rain, anchor, sampler, scratch, counters);
 }
@@ -254,8 +256,8 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     const float q = std::min(most, worth(streak_weight(hit, segment) * brightness, segment, settings_.streak_roulette));
     if (!(q >= 1) && choice >= q) return Rgb(0);
     counters.count(Feature::streak_path);
-    const Rgb light = event.trace(segment.background_luminance, counters);
-    return q >= 1 ? light : light / q;
+    const float weight = 1 / std::min(q, 1.0f);
+    return weight * event.trace({segment.background_luminance, weight * streak_weight(hit, segment)}, counters);
 }
 
 void RainStage::compose_physical(const RainScratch& scratch, size_t intensity, RainSample& result) const {

@@ -156,7 +156,7 @@ RenderReport render_frame(const Scene& scene, const Environment& environment, co
         wet_ground.emplace(scene, wet_shadow ? *wet_shadow : *shadow, settings.wet, time, settings.rain.seed);
     const WetGround* const wet = wet_ground ? &*wet_ground : nullptr;
     std::optional<SkyGuide> sky_guide;
-    if (!picture && is_worth_guiding(environment, lights.has_local()))
+    if (!picture && is_worth_guiding(lights))
         sky_guide.emplace(environment,
                           find_sky_sights(ray_scene, environment, view, wet, settings.seed, report.counters));
     const PathTracer tracer(scene, ray_scene, lights, settings.path, wet, sky_guide ? &*sky_guide : nullptr);

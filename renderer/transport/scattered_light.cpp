@@ -1,14 +1,8 @@
 #include "renderer/transport/scattered_light.h"
 
 #include "renderer/core/sampling.h"
+
 namespace pluvia {
-namespace {
-
-// Roulette lets scattered light be computed for few samples, and for those it is this part of their pixel's light or
-// so.
-constexpr float path_importance = 0.4f;
-
-}  // namespace
 
 ScatteredLight::ScatteredLight(const PathTracer& tracer, const ScatterFunction& function, Vec3 position,
                                const std::optional<LightSample>& distant, const Sampler& sampler)
@@ -37,15 +31,20 @@ void ScatteredLight::weigh_lamp(float weight) {
     unshadowed_ = std::max(0.0f, unshadowed_ + luminance(candidates_[0].contribution));
 }
 
-Rgb ScatteredLight::trace(float pixel_luminance, Counters& counters) const {
+Rgb ScatteredLight::trace(const PathWorth& worth, Counters& counters) const {
+    const float relevance = tracer_->relevance(Rgb(1), worth);
     Rgb sum;
-    for (int i = 0; i < count_; ++i)
-        sum += candidates_[i].contribution * visible_share(tracer_->ray_scene(), position_, candidates_[i].light,
-                                                           {sampler_->key(candidates_[i].draw)}, counters);
+    for (int i = 0; i < count_; ++i) {
+        const auto& [light, contribution, draw] = candidates_[i];
+        const uint64_t key = sampler_->key(draw);
+        const float weight = shadow_ray_weight(luminance(contribution), relevance, key);
+        if (weight > 0)
+            sum += contribution * visible_share(tracer_->ray_scene(), position_, light, {key}, counters) * weight;
+    }
     const Vec3 wi = sample_scatter(*function_, sampler_->get_2d(Draw::streak_phase));
     const ScatterValue scatter = evaluate_scatter(*function_, wi);
-    const PathResult path = tracer_->trace({position_, wi}, {scatter.pdf, {position_, Vec3()}}, *sampler_, 1, counters,
-                                           {pixel_luminance, path_importance});
+    const PathResult path =
+        tracer_->trace({position_, wi}, {scatter.pdf, {position_, Vec3()}}, *sampler_, 1, counters, worth);
     return sum + path.radiance * (scatter.value / scatter.pdf);
 }
 

@@ -23,8 +23,8 @@ public:
     /// The local light that was sampled, if any, and a weight for it where it is sampled in another way as well.
     const std::optional<Lights::LocalPoint>& lamp() const { return lamp_; }
     void weigh_lamp(float weight);
-    /// Radiance towards the camera. pixel_luminance: see PathWorth.
-    Rgb trace(float pixel_luminance, Counters& counters) const;
+    /// Radiance towards the camera.
+    Rgb trace(const PathWorth& worth, Counters& counters) const;
 
 private:
     struct Candidate {

@@ -89,10 +89,10 @@ private:
 
 }  // namespace
 
-bool is_worth_guiding(const Environment& environment, bool has_lamps) {
-    constexpr double outshone_by_lamps = 10;  // lux
+bool is_worth_guiding(const Lights& lights) {
+    const Environment& environment = lights.environment();
     if (!environment.has_blocks() || environment.disc_illuminance() > environment.sky_illuminance()) return false;
-    if (has_lamps && environment.sky_illuminance() < outshone_by_lamps) return false;
+    if (lights.lamps_outshine_sky()) return false;
     // A sun may be part of the picture, and wider than the true one. Of a sky without, the brightest 64th has at most
     // 0.28 of the light, with the sun low behind haze.
     constexpr double outshone_by_sun = 0.4;

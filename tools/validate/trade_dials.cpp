@@ -14,7 +14,7 @@ const std::vector<TradeDial>& trade_dials() {
         {"samples", "--spp; 16, 64, 256 and 1024 are --quality draft, standard, high and reference"},
         {"target-error", "--target-error, its pilot included"},
         {"bounces", "--bounces; biased: loses light"},
-        {"path-roulette", "scattering events after which roulette may end a path (2; no option)"},
+        {"path-roulette", "share of the light it meets below which a path is ended at random (0.25; no option)"},
         {"shadow-roulette",
          "share of the picture's light below which a shadow ray is traced at random (0.25; no option)"},
         {"light-samples", "samples of lamps that compete for a path's first shadow ray (8; no option)"},
@@ -53,8 +53,8 @@ std::vector<TradeSetting> trade_settings(bool rains, bool physical) {
     const auto add_code = [&](const char* dial, auto value, auto set) {
         settings.push_back({dial, fmt::format("{}", value), false, {}, [=](RenderSettings& s) { set(s, value); }});
     };
-    for (const int n : {1, 4, 8})
-        add_code("path-roulette", n, [](auto& s, int v) { s.path.first_roulette_bounce = v; });
+    for (const double c : {0.05, 1.0})
+        add_code("path-roulette", c, [](auto& s, double v) { s.path.path_roulette = float(v); });
     for (const double c : {0.0, 1.0})
         add_code("shadow-roulette", c, [](auto& s, double v) { s.path.shadow_roulette = float(v); });
     for (const int n : {1, 2, 4, 16}) add_code("light-samples", n, [](auto& s, int v) { s.path.light_samples = v; });
