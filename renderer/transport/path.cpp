@@ -47,7 +47,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (last && !lets_straight_through(surface.bsdf)) return result;
 
         const ShadingBasis basis(surface.shading_normal);
-        const int light_samples = light_samples_at(settings_.light_samples, bounce);
+        const int light_samples = light_samples_at(settings_.light_samples, worth.importance < 1 ? bounce + 1 : bounce);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
             result.radiance += throughput * direct_light(*ray_scene_, *lights_, sky_guide_,
