@@ -150,7 +150,7 @@ TEST_CASE("between high walls guided samples give the same light with less than 
 
 TEST_CASE("a guide is made where the sky lights most, and for no other picture") {
     Scene dark, lit;
-    lit.lights.push_back({.position = {0, 5, 0}, .intensity = Rgb(100)});
+    lit.lights.push_back({.intensity = Rgb(100), .position = {0, 5, 0}});
     const auto is_worth = [&](const Environment& environment, bool has_lamps) {
         return is_worth_guiding(Lights(has_lamps ? lit : dark, environment));
     };

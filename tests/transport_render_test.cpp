@@ -57,17 +57,24 @@ TEST_CASE("a frame has the same bytes for any number of threads, any tile size a
 }
 
 TEST_CASE("the background and the layers of one intensity do not depend on what else is asked for") {
-    const Scene scene = make_court(lambert(Rgb(0.6f)));
-    const View view = court_view(64, 32);
-    const Picture dry = render_picture(scene, grey_world(), view, rainy({}));
-    const Picture one = render_picture(scene, grey_world(), view, rainy({10}));
-    const Picture many = render_picture(scene, grey_world(), view, rainy({100, 10, 50}));
-    for (const auto& [channel, plane] : dry.planes) CHECK(plane == one.plane(channel));
-    for (const auto& [channel, plane] : one.planes) {
-        CAPTURE(channel);
-        CHECK(plane == many.plane(channel));
-    }
-    CHECK(one.mean("rain_010.A") > 0);
+    const auto check = [](const Scene& scene, const View& view) {
+        const Picture dry = render_picture(scene, grey_world(), view, rainy({}));
+        const Picture one = render_picture(scene, grey_world(), view, rainy({10}));
+        const Picture many = render_picture(scene, grey_world(), view, rainy({100, 10, 50}));
+        for (const auto& [channel, plane] : dry.planes) CHECK(plane == one.plane(channel));
+        for (const auto& [channel, plane] : one.planes) {
+            CAPTURE(channel);
+            CHECK(plane == many.plane(channel));
+        }
+        CHECK(one.mean("rain_010.A") > 0);
+        return one;
+    };
+    check(make_court(lambert(Rgb(0.6f))), court_view(64, 32));
+    // Far away fine rain hides so much that it is lit for every sample, at each of these intensities.
+    Scene plain;
+    add_quad(plain, {-3000, 0, 3000}, {6000, 0, 0}, {0, 0, -6000}, lambert(Rgb(0.6f)));
+    const Picture one = check(plain, look_at({0, 2, 0}, {0, 2, -100}, 32, 16, 400));
+    CHECK(one.plane("transmittance_010.G")[32 * 8 + 16] < 0.5f);
 }
 
 TEST_CASE("rainy is background times transmittance plus rain plus in-scatter in every pixel") {

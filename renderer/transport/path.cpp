@@ -47,6 +47,7 @@ PathResult PathTracer::trace(Ray ray, RayOrigin origin, const Sampler& sampler, 
         if (last && !lets_straight_through(surface.bsdf)) return result;
 
         const ShadingBasis basis(surface.shading_normal);
+        // Of light that is a small part of its pixel the noise is, too.
         const int light_samples = light_samples_at(settings_.light_samples, worth.importance < 1 ? bounce + 1 : bounce);
         const PreparedBsdf bsdf = prepare(surface.bsdf, basis.to_local(-ray.direction));
         if (!is_delta(bsdf))
