@@ -253,11 +253,12 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     // What the light could bring beside the background. It depends on the light sample but not on the number that
     // decides, so the division by q stays unbiased; what is beside a lamp has q = 1 and is no firefly.
     const float brightness = std::max(segment.background_luminance, event.unshadowed());
-    const float q = std::min(most, worth(streak_weight(hit, segment) * brightness, segment, settings_.streak_roulette));
+    const float weight = streak_weight(hit, segment);
+    const float q = std::min(most, worth(weight * brightness, segment, settings_.streak_roulette));
     if (!(q >= 1) && choice >= q) return Rgb(0);
     counters.count(Feature::streak_path);
-    const float weight = 1 / std::min(q, 1.0f);
-    return weight * event.trace({segment.background_luminance, weight * streak_weight(hit, segment)}, counters);
+    const float spared = 1 / std::min(q, 1.0f);
+    return spared * event.trace({segment.background_luminance, spared * weight}, counters);
 }
 
 void RainStage::compose_physical(const RainScratch& scratch, size_t intensity, RainSample& result) const {
