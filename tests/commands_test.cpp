@@ -192,7 +192,7 @@ TEST_CASE("mistakes get one line that says where, what, got and expected, and th
     std::istringstream options(
         "--spp 0|--size 10|--rain 9000|--rain nan|--rain 10,10|--hour 25|--weather snow|"
         "--exposure bright|--depth-encoding foo|--focus 3|--bounces -2|--composition art|--bounces 1.5|"
-        "--seed -1|--threads -1|--wind 1,2|--camera-velocity nan,0,0|--streak-width 0|--streak-gain inf|--fog-beta -1|"
+        "--seed -1|--threads -1|--wind 1,2|--camera-velocity nan,0,0|--streak-width 0|--veil thick|--streak-gain inf|--fog-beta -1|"
         "--latitude 91|--longitude nan|--utc-offset 99|--sun-elevation 100|--sun-azimuth nan|"
         "--turbidity 0.5|--cloud-cover 2|--cloud-cover nan|--cloud-type fluffy|--city-glow bright|--city-glow -1|"
         "--lamps dim|--environment 1,-1,1|--focal-length 0|--f-number 0|--shutter 0|--fps 0|"

@@ -91,13 +91,14 @@ TEST_CASE("rain on a render's own background has the light of its own rainy pict
         RunningMean own, traced, smooth;
         for (uint64_t seed = 0; seed < 6; ++seed) {
             settings.seed = settings.rain.seed = seed;
-            settings.streaks.far_light = nullptr;
+            settings.streaks.tabled_veil = false;
             const Picture rendered = render_picture(scene, world, view, settings);
             const PictureSource source = source_of(rendered);
             const Environment estimated = estimate_environment(source, view);
             const auto light = [](const Picture& p) { return p.mean("rain_100.G") + p.mean("inscatter_100.G"); };
             own.add(light(rendered));
             traced.add(light(augment_picture(source, view, settings)));
+            settings.streaks.tabled_veil = true;
             settings.streaks.far_light = std::make_shared<FarLight>(make_far_light(source, view, estimated));
             smooth.add(light(augment_picture(source, view, settings)));
         }
@@ -132,8 +133,8 @@ TEST_CASE("light of fine drops from a table is that of their paths, by day and b
         for (uint64_t seed = 0; seed < 8; ++seed)
             for (const bool smooth : {false, true}) {
                 settings.seed = settings.rain.seed = seed;
-                settings.streaks.far_light =
-                    smooth ? std::make_shared<FarLight>(make_far_light(source, view, environment)) : nullptr;
+                settings.streaks.tabled_veil = smooth;
+                settings.streaks.far_light = std::make_shared<FarLight>(make_far_light(source, view, environment));
                 const Picture picture = augment_picture(source, view, settings, &environment);
                 CHECK((picture.report.counters[Feature::medium_path] > 0) == !smooth);
                 std::array<double, 3> sums = {};
@@ -164,12 +165,13 @@ TEST_CASE("in a picture of one grey rain is invisible, with its depth, its sky a
         for (int x = 0; x < 48; ++x) source.z.at(x, y) = 60.0f / float(y - 10);
     RenderSettings settings = rainy(16);
     // Traced, and with the table in the second half of the seeds.
-    const auto far = std::make_shared<FarLight>(make_far_light(source, view, estimate_environment(source, view)));
+    settings.streaks.far_light =
+        std::make_shared<FarLight>(make_far_light(source, view, estimate_environment(source, view)));
     std::vector<RunningMean> pixels(48 * 24);
     RunningMean all, light;
     for (uint64_t seed = 0; seed < 64; ++seed) {
         settings.seed = settings.rain.seed = seed;
-        if (seed == 32) settings.streaks.far_light = far;
+        settings.streaks.tabled_veil = seed >= 32;
         const Picture picture = augment_picture(source, view, settings);
         CHECK((picture.report.counters[Feature::medium_path] > 0) == (seed < 32));
         for (size_t i = 0; i < pixels.size(); ++i) pixels[i].add(picture.plane("rainy_100.G")[i]);

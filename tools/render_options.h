@@ -35,6 +35,7 @@ struct RenderOptions {
     std::string streaks;                 // folder of a streak database; empty: Pluvia's own
     std::optional<double> streak_width;  // empty: 1/4, or 1 with the paper's composition
     double fog_beta = 0;
+    std::string veil = "traced";
     std::vector<double> camera_velocity;  // empty = as the scene has it
     double wetness = 0, puddles = 0, ripples = 0;
     std::vector<double> wet_wind;  // empty: wind

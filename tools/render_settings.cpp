@@ -82,6 +82,8 @@ RenderSettings render_settings(const RenderOptions& o) {
                    s.rain.min_width_pixels, "0.25 to 100 pixels");
     require_option(o.fog_beta >= 0 && o.fog_beta <= 1, "fog-beta", o.fog_beta, "0 to 1 per metre");
     s.rain.fog_extinction = o.fog_beta;
+    if (o.veil != "traced" && o.veil != "table") fail_option("veil", '"' + o.veil + '"', "traced or table");
+    s.streaks.tabled_veil = o.veil == "table";
     require_option(o.streak_gain > 0 && o.streak_gain <= 1000, "streak-gain", o.streak_gain, "above 0, up to 1000");
     s.streaks.paper_gain = o.streak_gain;
     require_option(o.wetness >= 0 && o.wetness <= 1, "wetness", o.wetness, "0 to 1");

@@ -23,15 +23,20 @@ constexpr int light_samples_at(int at_first, int bounce) {
     return std::max(std::min(at_first, 2), at_first >> std::min(bounce, 2));
 }
 
+/// In place of a number of samples of lamps: rays that meet lamps by themselves do not count.
+constexpr int samples_alone = 0;
+
 /// Where light samples were drawn, as far as the weight of a ray that left there needs it.
 struct RayOrigin {
     float pdf = 0;      // of the ray's direction, per solid angle; 0 = no light sample was drawn there (camera, delta)
     Receiver receiver;  // what the light samples were drawn for
-    int local_samples = 1;
+    int local_samples = 1;           // of lamps
     bool parts_sky_and_sun = false;  // of these samples each, instead of one of all that is distant
 
     /// Weight of light that the ray has met against samples of it, where pdf > 0. light_pdf: of one sample.
-    float weight_of_local(float light_pdf) const { return power_heuristic(pdf, float(local_samples) * light_pdf); }
+    float weight_of_local(float light_pdf) const {
+        return local_samples == samples_alone ? 0 : power_heuristic(pdf, float(local_samples) * light_pdf);
+    }
 };
 
 /// Light of the environment that a ray meets, weighed against samples of it. guide: that they were drawn with; null:

@@ -1,21 +1,17 @@
 #include "renderer/transport/drop_light.h"
 
 #include "renderer/core/parallel.h"
-#include "renderer/core/sampling.h"
-#include "renderer/transport/camera_ray.h"
-#include "renderer/transport/scatter_function.h"
+#include "renderer/core/random.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 namespace pluvia {
 namespace {
 
-constexpr int columns_wanted = 64;
-constexpr int samples = 16;  // of a cell, for each slice that its pixels reach
-
-constexpr uint64_t drop_light_domain = 0x6472706c;
+constexpr int most_columns = 64;
 
 constexpr std::array<float, DropLight::slices> make_ends() {
     std::array<float, DropLight::slices> ends = {};
@@ -26,39 +22,49 @@ constexpr std::array<float, DropLight::slices> make_ends() {
 }
 constexpr std::array<float, DropLight::slices> ends = make_ends();
 
-/// Directions drawn with the share that they have of the light offered.
-class Reservoir {
-public:
-    /// key: of random numbers.
-    void offer(Vec3 direction, float weight, uint64_t key, std::array<Vec3, DropLight::directions>& chosen) {
-        if (!(weight > 0)) return;
-        total_ += weight;
-        for (size_t i = 0; i < chosen.size(); ++i)
-            if (unit_float(hash_key(key, i)) * total_ < weight) chosen[i] = direction;
-    }
+}  // namespace
 
-private:
-    float total_ = 0;
-};
-
-/// Light of one lamp at a drop, chosen by what it may bring.
-LightSample lamp_light(const PathTracer& tracer, Vec3 position, const ScatterFunction& function, const Sampler& sampler,
-                       Rgb& contribution, Counters& counters) {
-    const Lights& lights = tracer.lights();
-    contribution = Rgb(0);
-    const auto lamp =
-        lights.choose_local({position, Vec3()}, sampler.get_1d(Draw::light_choice), sampler.get_2d(Draw::light_point));
-    if (!lamp) return {};
-    const LightSample light = lights.illuminate(position, *lamp);
-    if (is_black(light.radiance)) return light;
-    const ScatterValue scatter = evaluate_scatter(function, light.wi);
-    const float mis = light.delta ? 1.0f : power_heuristic(light.pdf, scatter.pdf);
-    contribution = light.radiance * (scatter.value * mis / light.pdf);
-    contribution *= visible_share(tracer.ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
-    return light;
+DropLight::DropLight(const View& view, int least_size, bool smooth, const Estimate& estimate, Counters& counters)
+    : size_(std::max(least_size, (view.width + most_columns - 1) / most_columns)),
+      columns_((view.width + size_ - 1) / size_),
+      rows_((view.height + size_ - 1) / size_) {
+    std::vector<DropLightSamples> found(size_t(columns_) * size_t(rows_), DropLightSamples(Rgb(), Vec3()));
+    std::mutex mutex;
+    parallel_for(int(found.size()), [&](int i) {
+        const int column = i % columns_, row = i / columns_, x = column * size_, y = row * size_;
+        Counters of_cell;
+        found[size_t(i)] =
+            estimate({column, row, x, y, std::min(size_, view.width - x), std::min(size_, view.height - y)}, of_cell);
+        const std::lock_guard lock(mutex);
+        counters += of_cell;
+    });
+    if (smooth) DropLightSamples::smooth(found, columns_);
+    for (const DropLightSamples& samples : found) cells_.push_back(mean(samples));
 }
 
-}  // namespace
+DropLight::Cell DropLight::mean(const DropLightSamples& samples) {
+    Cell result;
+    Rgb mean;
+    std::array<Vec3, directions> from;
+    from.fill(samples.ahead_);
+    const double most = std::ranges::max(samples.sums_, {}, &DropLightSamples::Sum::count).count();
+    for (size_t k = 0; k < slices; ++k) {
+        const auto& [r, g, b, count] = samples.sums_[k].light_and_count;
+        // A slice without samples has what is before it.
+        if (count > 0) {
+            mean = Rgb(float(r / count), float(g / count), float(b / count));
+            for (size_t i = 0; i < from.size(); ++i) {
+                const Vec3 chosen = samples.from_[k].chosen[i];
+                from[i] = length_squared(chosen) > 0 ? chosen : samples.ahead_;
+            }
+        }
+        const Rgb light = samples.base_ + mean;
+        result.light[k] = Rgb(std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b));
+        result.known[k] = most > 0 ? float(count / most) : 0;
+        result.from[k] = from;
+    }
+    return result;
+}
 
 int DropLight::slice_of(float z) {
     int slice = 0;
@@ -70,92 +76,83 @@ float DropLight::end_of(int slice) {
     return ends[size_t(slice)];
 }
 
-DropLight::DropLight(const PathTracer& tracer, const FarLight& far, const PictureSource& picture, const View& view,
-                     uint64_t seed, float near)
-    : size_(std::max(1, (view.width + columns_wanted - 1) / columns_wanted)),
-      columns_((view.width + size_ - 1) / size_),
-      rows_((view.height + size_ - 1) / size_),
-      cells_(size_t(columns_) * size_t(rows_)) {
-    parallel_for(int(cells_.size()), [&](int i) {
-        cells_[size_t(i)] = estimate(tracer, far, picture, view, seed, near, i % columns_, i / columns_);
-    });
+float DropLight::depth_in(int slice, float near, float deepest, float u) {
+    const float begin = slice > 0 ? std::max(near, ends[size_t(slice) - 1]) : near;
+    if (slice + 1 == slices) return begin;
+    return begin + u * std::max(0.0f, std::min(ends[size_t(slice)], deepest) - begin);
 }
 
-DropLight::Cell DropLight::estimate(const PathTracer& tracer, const FarLight& far, const PictureSource& picture,
-                                    const View& view, uint64_t seed, float near, int column, int row) const {
-    Cell result;
-    std::array<std::array<double, 3>, slices> sums = {};
-    std::array<int, slices> counts = {};
-    std::array<Reservoir, slices> reservoirs;
-    Counters uncounted;
-    const int width = std::min(size_, view.width - column * size_);
-    const int height = std::min(size_, view.height - row * size_);
-    for (int n = 0; n < samples; ++n) {
-        const Sampler of_ray = Sampler(seed, uint32_t(column), uint32_t(row), uint32_t(n)).fork(drop_light_domain);
-        const Vec2 u = of_ray.get_2d(Draw::pixel);
-        const Vec2 pixel{float(column * size_) + u.x * float(width), float(row * size_) + u.y * float(height)};
-        const Ray seen = view_ray(view, pixel, {});
-        const Ray ray = scene_ray(view, {}, seen).ray;
-        const float deepest =
-            picture.z.at(std::min(int(pixel.x), view.width - 1), std::min(int(pixel.y), view.height - 1));
-        const ScatterFunction function = DropScatter{ray.direction};
-        float begin = near;
-        for (size_t k = 0; k < slices && begin < deepest; begin = std::max(near, ends[k++])) {
-            const float end = std::min(ends[k], deepest);
-            // Of a drop farther than the last of them all is far away.
-            const Sampler sampler = of_ray.fork(k);
-            const float depth =
-                k + 1 < slices ? begin + sampler.get_1d(Draw::medium_distance) * std::max(0.0f, end - begin) : begin;
-            const Vec3 position = ray.at(depth / seen.direction.z);
-            const Vec3 wi = sample_scatter(function, sampler.get_2d(Draw::streak_phase));
-            const ScatterValue scatter = evaluate_scatter(function, wi);
-            // Against what the far light has for the same direction: they differ where something is near.
-            const PathResult path =
-                tracer.trace({position, wi}, {scatter.pdf, {position, Vec3()}}, sampler, 1, uncounted, {});
-            const Rgb around = std::isinf(path.distance) ? far.open(wi) : path.radiance;
-            const Rgb nearby = (around - far.radiance(wi)) * (scatter.value / scatter.pdf);
-            Rgb of_lamp;
-            LightSample lamp = {};
-            if (tracer.lights().has_local()) lamp = lamp_light(tracer, position, function, sampler, of_lamp, uncounted);
-            const Rgb sum = nearby + of_lamp;
-            if (!is_finite(sum)) continue;
-            sums[k][0] += sum.r, sums[k][1] += sum.g, sums[k][2] += sum.b;
-            ++counts[k];
-            reservoirs[k].offer(wi, luminance(around), sampler.key(Draw::light_pick), result.from[k]);
-            reservoirs[k].offer(lamp.wi, luminance(of_lamp), sampler.key(Draw::roulette), result.from[k]);
-        }
-    }
-    const Vec2 middle{float(column * size_) + 0.5f * float(width), float(row * size_) + 0.5f * float(height)};
-    const Vec3 ahead = scene_ray(view, {}, view_ray(view, middle, {})).ray.direction;
-    Rgb correction;
-    for (size_t k = 0; k < slices; ++k) {
-        // A slice that no ray has reached has what is before it.
-        if (counts[k] > 0)
-            correction =
-                Rgb(float(sums[k][0] / counts[k]), float(sums[k][1] / counts[k]), float(sums[k][2] / counts[k]));
-        else if (k > 0)
-            result.from[k] = result.from[k - 1];
-        for (Vec3& from : result.from[k])
-            if (length_squared(from) == 0) from = ahead;
-        const Rgb light = far.of_drop(ahead) + correction;
-        result.light[k] = Rgb(std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b));
-    }
-    return result;
-}
-
-void DropLight::find(int x, int y, int last, std::array<Rgb, slices>& light) const {
+void DropLight::find(int x, int y, int last, Slices& light) const {
     const float across = (float(x) + 0.5f) / float(size_) - 0.5f, down = (float(y) + 0.5f) / float(size_) - 0.5f;
     const int x0 = std::clamp(int(std::floor(across)), 0, columns_ - 1), x1 = std::min(x0 + 1, columns_ - 1);
     const int y0 = std::clamp(int(std::floor(down)), 0, rows_ - 1), y1 = std::min(y0 + 1, rows_ - 1);
     const float s = std::clamp(across - float(x0), 0.0f, 1.0f), t = std::clamp(down - float(y0), 0.0f, 1.0f);
-    const Cell &a = cell(x0, y0), &b = cell(x1, y0), &c = cell(x0, y1), &d = cell(x1, y1);
-    for (size_t k = 0; k <= size_t(last); ++k)
-        light[k] = mix(mix(a.light[k], b.light[k], s), mix(c.light[k], d.light[k], s), t);
+    const std::array<const Cell*, 4> cells = {&cell(x0, y0), &cell(x1, y0), &cell(x0, y1), &cell(x1, y1)};
+    const std::array<float, 4> weights = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
+    for (size_t k = 0; k <= size_t(last); ++k) {
+        Rgb sum;
+        float known = 0;
+        for (size_t i = 0; i < cells.size(); ++i) {
+            const float weight = weights[i] * cells[i]->known[k];
+            sum += cells[i]->light[k] * weight;
+            known += weight;
+        }
+        light[k] = known > 0 ? sum * (1 / known) : cells[0]->light[k];
+    }
 }
 
 Vec3 DropLight::direction(int x, int y, int slice, float u) const {
     const Cell& here = cell(std::min(x / size_, columns_ - 1), std::min(y / size_, rows_ - 1));
     return here.from[size_t(slice)][std::min(size_t(u * directions), size_t(directions - 1))];
+}
+
+void DropLightSamples::add(int slice, Rgb light, Counters& counters) {
+    if (!is_finite(light)) {
+        ++counters.invalid_samples;
+        return;
+    }
+    auto& [r, g, b, count] = sums_[size_t(slice)].light_and_count;
+    r += light.r, g += light.g, b += light.b, ++count;
+}
+
+void DropLightSamples::offer(int slice, Vec3 direction, float weight, uint64_t key) {
+    if (!(weight > 0)) return;
+    Directions& from = from_[size_t(slice)];
+    from.offered += weight;
+    // Each place is taken with the share that the direction has of all light offered.
+    for (size_t i = 0; i < from.chosen.size(); ++i)
+        if (unit_float(hash_key(key, i)) * from.offered < weight) from.chosen[i] = direction;
+}
+
+DropLightSamples::Sum DropLightSamples::Sum::smoothed(const Sum& before, const Sum& after) const {
+    Sum result;
+    for (size_t i = 0; i < light_and_count.size(); ++i)
+        result.light_and_count[i] =
+            0.25 * before.light_and_count[i] + 0.5 * light_and_count[i] + 0.25 * after.light_and_count[i];
+    return result;
+}
+
+void DropLightSamples::smooth(std::vector<DropLightSamples>& cells, int columns) {
+    const int rows = int(cells.size()) / columns;
+    const auto at = [&](int column, int row, int slice) -> Sum& {
+        return cells[size_t(row) * size_t(columns) + size_t(column)].sums_[size_t(slice)];
+    };
+    std::vector<Sum> line;
+    // sum(i): of `count` in a line; the first and the last stand for what is beyond them.
+    const auto smooth_line = [&](int count, const auto& sum) {
+        line.clear();
+        for (int i = 0; i < count; ++i)
+            line.push_back(sum(i).smoothed(sum(std::max(i - 1, 0)), sum(std::min(i + 1, count - 1))));
+        for (int i = 0; i < count; ++i) sum(i) = line[size_t(i)];
+    };
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column)
+            smooth_line(DropLight::slices, [&](int i) -> Sum& { return at(column, row, i); });
+    for (int slice = 0; slice < DropLight::slices; ++slice) {
+        for (int row = 0; row < rows; ++row) smooth_line(columns, [&](int i) -> Sum& { return at(i, row, slice); });
+        for (int column = 0; column < columns; ++column)
+            smooth_line(rows, [&](int i) -> Sum& { return at(column, i, slice); });
+    }
 }
 
 }  // namespace pluvia

@@ -66,6 +66,7 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
     seen.t_max = float(ray.before + path.distance);
     CameraSegment segment{pixel, scratch.candidates, ray.ray,
                           seen,  path.radiance,      std::max(frame.dark, mean_luminance(index + 1))};
+    if (frame.rain->drop_light()) segment.drop_light = &scratch.drop_light;
     if (frame.shadow)
         segment.dry =
             scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);
@@ -80,6 +81,8 @@ void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch) {
     scratch.film.sums.rain.assign(frame.intensity_count(), {});
     scratch.film.objects.clear(), scratch.film.materials.clear();
     if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
+    const DropLight* const drop_light = frame.rain && !frame.picture ? frame.rain->drop_light() : nullptr;
+    if (drop_light) drop_light->find(x, y, DropLight::slices - 1, scratch.drop_light);
 }
 
 /// Calls visit(i) for each bit i that is set, in rising order.
@@ -149,7 +152,7 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
 }
 
 void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScratch& scratch, Counters& counters) {
-    if (frame.rain && frame.rain->has_drop_light())
+    if (frame.rain && frame.picture && frame.rain->drop_light())
         add_picture_samples(frame, x, y, begin, end, scratch, counters);
     else if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
         add(scratch.film.sums.background, frame.picture->radiance.at(x, y) * float(end - begin));

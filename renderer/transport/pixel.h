@@ -56,6 +56,7 @@ struct PixelScratch {
     std::vector<RainSample> rain;
     RainScratch streaks;
     PixelVeil veil;
+    DropLight::Slices drop_light;
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     std::vector<uint64_t> masks;       // of samples that a candidate may touch

@@ -7,6 +7,7 @@
 #include "renderer/rain/rain_medium.h"
 #include "renderer/rain/streak_bins.h"
 #include "renderer/transport/drop_light.h"
+#include "renderer/transport/far_light.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/scattered_light.h"
 
@@ -33,8 +34,10 @@ struct StreakSettings {
     /// Light of weight w is computed with probability q = min(1, w L / (c L_background)): this is c. At 0.25 time
     /// times error of the rainy picture is least on wet streets by day, and it has less noise than the clean one.
     double streak_roulette = 0.25, medium_roulette = 0.25;
-    /// In front of pictures without fog: what is far around, with which light of drops too fine to show where they are
-    /// comes from drop_light.h. Null: their paths are traced.
+    /// Light of drops too fine to show where they are comes from drop_light.h; else, and in fog, their paths are
+    /// traced.
+    bool tabled_veil = false;
+    /// What is far around, for the table in front of a picture.
     std::shared_ptr<const FarLight> far_light = nullptr;
 };
 
@@ -47,6 +50,7 @@ struct CameraSegment {
     Rgb background;                        // radiance that arrives along the ray without rain
     float background_luminance;            // its mean over the pixel as far as known, to decide what a streak is worth
     std::span<const DryPart> dry = {};     // of the ray, where no rain falls
+    const DropLight::Slices* drop_light = nullptr;  // of the pixel, in scenes; null: paths find it
 };
 
 /// What rain does to a segment at one intensity.
@@ -71,25 +75,25 @@ struct RainScratch {
     std::array<Scattered, 4> scattered;  // the first scattered_count are valid, in order of distance
     int scattered_count = 0;
     RainMedium::Scattering scattering;
-    std::vector<Rgb> veil;  // in place of the scattered: in-scattered light up to each hit, per intensity
+    std::vector<Rgb> veil;              // of a table: in-scattered light up to each hit and to the end, per intensity
+    std::vector<float> passed, depths;  // buffers of find_veil
 };
 
-/// What the samples of a picture's pixel share: light of drops along its ray, and the medium between the slices of
-/// DropLight.
+/// What the samples of a pixel share in front of pictures: light of drops along its ray, and the medium between the
+/// slices of DropLight.
 struct PixelVeil {
-    int x = 0, y = 0;
     int last = 0;  // slice of the surface
     RainSegment in_rain;
-    std::array<Rgb, DropLight::slices> light;  // of drops, up to the slice of the surface
-    std::vector<float> transmissions;          // to where each slice begins, per intensity
-    std::vector<Rgb> inscatter;                // the same
-    std::vector<float> begin_depths;           // optical, along the view axis to where the rain begins, per intensity
-    std::vector<float> depths;                 // a buffer of as many
-    std::vector<RainSample> untouched;         // per intensity: what a sample is that no streak touches
-    std::span<const uint32_t> streaks;         // that samples may meet, rising; for each of them:
-    std::vector<int> slices;                   // where it is
-    std::vector<float> passed;                 // transmission of the medium up to it, per intensity
-    std::vector<Rgb> before;                   // in-scattered light up to it, per intensity
+    DropLight::Slices light;            // of drops, up to the slice of the surface
+    std::vector<float> transmissions;   // to where each slice begins, per intensity
+    std::vector<Rgb> inscatter;         // the same
+    std::vector<float> begin_depths;    // optical, along the view axis to where the rain begins, per intensity
+    std::vector<float> depths;          // a buffer of as many
+    std::vector<RainSample> untouched;  // per intensity: what a sample is that no streak touches
+    std::span<const uint32_t> streaks;  // that samples may meet, rising; for each of them:
+    std::vector<int> slices;            // where it is
+    std::vector<float> passed;          // transmission of the medium up to it, per intensity
+    std::vector<Rgb> before;            // in-scattered light up to it, per intensity
 };
 
 class RainStage {
@@ -100,9 +104,9 @@ public:
 
     /// The same with light of fine drops from a table. Keeps a reference.
     void set_drop_light(const DropLight& light);
-    bool has_drop_light() const { return drop_light_ != nullptr; }
-    /// For all samples of a pixel, where there is a drop_light; segment: of its centre, with candidates that live as
-    /// long as the veil is used. A streak is as far as its drop in the middle of the exposure for all of them.
+    const DropLight* drop_light() const { return drop_light_; }
+    /// For all samples of a picture's pixel, where there is a drop_light; segment: of its centre, with candidates that
+    /// live as long as the veil is used. A streak is as far as its drop in the middle of the exposure for all of them.
     void begin_pixel(int x, int y, const CameraSegment& segment, PixelVeil& veil) const;
     /// Whether light of a streak depends on CameraSegment::ray; where it does not, evaluate does not look at it.
     bool needs_ray(std::span<const StreakHit> hits) const;
@@ -115,6 +119,9 @@ public:
                   RainScratch& scratch, Counters& counters) const;
 
 private:
+    // Keep the random numbers of streaks and medium apart from each other and from those of paths.
+    static constexpr uint64_t rain_domain = 0x7261696e, medium_domain = 0x6d656469;
+
     void sample_distant(const Sampler& sampler, RainScratch& scratch) const;
     void find_transmissions(const RainSegment& in_rain, RainScratch& scratch) const;
     void scatter(Scatterer scatterer, const CameraSegment& segment, const RainSegment& in_rain, const Sampler& sampler,
@@ -129,8 +136,13 @@ private:
     void find_medium(const CameraSegment& segment, PixelVeil& veil) const;
     void find_before_streaks(float cosine, PixelVeil& veil) const;
     bool shows_picture(const StreakHit& hit, const Sampler& sampler) const;
-    Rgb fine_light(const StreakHit& hit, const CameraSegment& segment, const PixelVeil& veil, int slice,
+    Rgb fine_light(const StreakHit& hit, const CameraSegment& segment, Rgb light, int slice,
                    const Sampler& sampler) const;
+    void find_veil(const CameraSegment& segment, const RainSegment& in_rain, RainScratch& scratch) const;
+    Rgb tabled_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,
+                     const Sampler& sampler, Counters& counters) const;
+    Rgb lamp_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& streak_sampler,
+                   Counters& counters) const;
     float streak_weight(const StreakHit& hit, const CameraSegment& segment) const;
     /// most: of the probability with which the light is computed.
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,

@@ -4,6 +4,8 @@
 #include "renderer/transport/band_queue.h"
 #include "renderer/transport/film.h"
 #include "renderer/transport/passes.h"
+#include "renderer/transport/picture_drop_light.h"
+#include "renderer/transport/scene_drop_light.h"
 #include "renderer/transport/shelter.h"
 #include "renderer/transport/sky_sights.h"
 
@@ -184,9 +186,14 @@ RenderReport render_frame(const Scene& scene, const Environment& environment, co
         frame.has_medium = medium.has_value();
         if (shadow && fine_rain) frame.shadow = &*shadow;
         frame.rain.emplace(tracer, *bins, medium ? &*medium : nullptr, rain.intensities_mm_per_h, settings.streaks);
-        if (picture && settings.streaks.far_light && !(rain.fog_extinction > 0))
-            frame.rain->set_drop_light(
-                drop_light.emplace(tracer, *settings.streaks.far_light, *picture, view, settings.seed));
+        // Fog has a phase function of its own.
+        if (settings.streaks.tabled_veil && !(rain.fog_extinction > 0)) {
+            drop_light = picture ? picture_drop_light(tracer, *settings.streaks.far_light, *picture, view,
+                                                      settings.seed, float(rain.near), report.counters)
+                                 : scene_drop_light(tracer, view, frame.far_scene, frame.shadow, settings.seed,
+                                                    float(rain.near), report.counters);
+            frame.rain->set_drop_light(*drop_light);
+        }
     }
     const LabelLayers& layers = settings.labels.layers;
     std::optional<LabelTracer> labels;

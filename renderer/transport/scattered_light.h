@@ -17,6 +17,11 @@ public:
     /// to this event alone. Keeps references.
     ScatteredLight(const PathTracer& tracer, const ScatterFunction& function, Vec3 position,
                    const std::optional<LightSample>& distant, const Sampler& sampler);
+    /// How lamps are found: by samples and by paths that meet them, or by samples alone.
+    enum class Lamps { and_paths, alone };
+    /// Of lamps, for trace_lights().
+    ScatteredLight(const PathTracer& tracer, const ScatterFunction& function, Vec3 position, const Sampler& sampler,
+                   Lamps lamps = Lamps::alone);
 
     /// Luminance of the sampled lights if nothing shadows them, in cd/m2.
     float unshadowed() const { return unshadowed_; }
@@ -24,7 +29,11 @@ public:
     const std::optional<Lights::LocalPoint>& lamp() const { return lamp_; }
     void weigh_lamp(float weight);
     /// Radiance towards the camera.
-    Rgb trace(const PathWorth& worth, Counters& counters) const;
+    Rgb trace(const PathWorth& worth, Counters& counters) const {
+        return trace_lights(worth, counters) + trace_path(worth, counters);
+    }
+    /// What the sampled lights bring straight.
+    Rgb trace_lights(const PathWorth& worth, Counters& counters) const;
 
 private:
     struct Candidate {
@@ -33,11 +42,13 @@ private:
         Draw draw;
     };
     void add(const LightSample& light, Draw draw);
+    Rgb trace_path(const PathWorth& worth, Counters& counters) const;
 
     const PathTracer* tracer_;
     const Sampler* sampler_;
     const ScatterFunction* function_;
     Vec3 position_;
+    Lamps lamps_;
     std::optional<Lights::LocalPoint> lamp_;  // of the first candidate
     std::array<Candidate, 2> candidates_;
     int count_ = 0;

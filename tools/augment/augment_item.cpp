@@ -96,7 +96,6 @@ void copy_label(const AugmentItem::Copy& label, const std::string& scratch, size
 AugmentSettings::AugmentSettings(const AugmentOptions& o) : options(o), render(render_settings(o.render)) {
     if (o.render.rain.empty()) fail_option("rain", "nothing", "intensities in mm/h such as 10,50");
     if (o.curve != "srgb" && o.curve != "linear") fail_option("curve", '"' + o.curve + '"', "srgb or linear");
-    if (o.veil != "far" && o.veil != "traced") fail_option("veil", '"' + o.veil + '"', "far or traced");
     if (o.fov) require_option(*o.fov > 0 && *o.fov < 180, "fov", *o.fov, "above 0, below 180 degrees");
     if (o.fov && o.render.focal_length) fail_option("fov", "--focal-length beside it", "one of the two");
     if (o.baseline)
@@ -173,7 +172,7 @@ void augment_item(const AugmentItem& item, const AugmentSettings& settings, cons
     const Environment environment =
         settings.environment ? *settings.environment : estimate_environment(picture.source, view);
     RenderSettings render_settings = settings.render;
-    if (options.veil == "far")
+    if (render_settings.streaks.tabled_veil)
         render_settings.streaks.far_light =
             std::make_shared<FarLight>(make_far_light(picture.source, view, environment));
     if (!item.rain.empty()) render_settings.rain.seed = hash_key(render_settings.rain.seed, hash_text(item.rain));

@@ -72,8 +72,8 @@ void add_augment_options(CLI::App& command, AugmentOptions& o) {
     command.add_option("--spp", r.spp, "samples per pixel")->capture_default_str()->group(quality);
     command
         .add_option(
-            "--veil", o.veil,
-            "light of rain too fine for streaks, of drops narrower than a pixel and of the paper's streaks: far, "
+            "--veil", r.veil,
+            "light of rain too fine for streaks, of drops narrower than a pixel and of the paper's streaks: table, "
             "interpolated between some thousand places of the view, quick and smooth but BIASED: by 1 % of this "
             "light, by more in the darkest parts, where there is little, and halos of lamps are 1/64 of the "
             "picture wide at least; or traced. With fog always traced")
@@ -125,7 +125,7 @@ nlohmann::ordered_json to_json(const AugmentOptions& o) {
     optional("focal-length", r.focal_length), optional("f-number", r.f_number), optional("focus", r.focus);
     j["shutter"] = r.shutter;
     if (!r.camera_velocity.empty()) j["camera-velocity"] = r.camera_velocity;
-    j["spp"] = r.spp, j["veil"] = o.veil, j["seed"] = r.seed;
+    j["spp"] = r.spp, j["veil"] = r.veil, j["seed"] = r.seed;
     j["rain"] = r.rain, j["wind"] = r.wind, j["composition"] = r.composition;
     j["streak-gain"] = r.streak_gain, j["fog-beta"] = r.fog_beta;
     if (r.composition == "paper") j["streak-distance"] = r.streak_distance, j["streak-share"] = r.streak_share;

@@ -19,11 +19,11 @@ struct AugmentOptions {
     std::string calibration;            // JSON file
     std::optional<double> fov;          // degrees across the picture
     std::optional<double> baseline;     // metres between the cameras of a stereo pair
-    std::string curve = "srgb", veil = "far";
+    std::string curve = "srgb";
     bool delta_only = false, exr = false, dry_run = false;
     std::string shard = "1/1";
 
-    AugmentOptions() { render.spp = 16; }
+    AugmentOptions() { render.spp = 16, render.veil = "table"; }
 };
 
 void add_augment_options(CLI::App& command, AugmentOptions& options);

@@ -50,8 +50,8 @@ std::string dataset_card(const DatasetConfig& config, size_t train, size_t test,
     for (const DatasetScene& scene : config.scenes)
         card += fmt::format("| {} | {} | {} | {} |\n", scene.name, scene.frames, fmt::join(scene.train, ", "),
                             fmt::join(scene.test, ", "));
-    card += fmt::format("\nIntensities: {}. Weather: {}. Composition: {}.\n", intensities(config), o.light.weather,
-                        o.composition);
+    card += fmt::format("\nIntensities: {}. Weather: {}. Composition: {}{}.\n", intensities(config), o.light.weather,
+                        o.composition, o.veil == "table" ? ", light of fine rain interpolated" : "");
     card += "\n## Files\n\n" + lists +
             "\n\n| key | content |\n| --- | --- |\n"
             "| `scene`, `sequence`, `intensity`, `wind` | the scene, its camera, mm/h, folder of the wind |\n";

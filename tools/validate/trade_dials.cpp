@@ -27,6 +27,7 @@ const std::vector<TradeDial>& trade_dials() {
          "share of the picture's light below which the light of a streak is computed at random (0.25; no option)"},
         {"medium-roulette",
          "the same for the light of fine rain, which is how many of its points are lit (0.25; no option)"},
+        {"veil", "--veil; biased: light of fine rain is interpolated"},
         {"composition", "--composition; not an error: the paper's rain is another picture"},
     };
     return dials;
@@ -73,6 +74,7 @@ std::vector<TradeSetting> trade_settings(bool rains, bool physical) {
         add_code("streak-roulette", c, [](auto& s, double v) { s.streaks.streak_roulette = v; });
     for (const double c : {0.05, 1.0})
         add_code("medium-roulette", c, [](auto& s, double v) { s.streaks.medium_roulette = v; });
+    settings.push_back({"veil", "table", true, [](RenderOptions& o) { o.veil = "table"; }});
     settings.push_back({"composition", "paper", true, [](RenderOptions& o) { o.composition = "paper"; }});
     return settings;
 }

@@ -19,7 +19,6 @@ void RainStage::set_drop_light(const DropLight& light) {
 void RainStage::begin_pixel(int x, int y, const CameraSegment& segment, PixelVeil& veil) const {
     const float cosine = segment.view_ray.direction.z;
     const size_t count = intensities_.size();
-    veil.x = x, veil.y = y;
     veil.last = DropLight::slice_of(segment.view_ray.t_max * cosine);
     drop_light_->find(x, y, veil.last, veil.light);
     veil.untouched.assign(count, {});
@@ -91,16 +90,16 @@ void RainStage::find_before_streaks(float cosine, PixelVeil& veil) const {
     }
 }
 
-/// Light of a drop that is not looked into.
-Rgb RainStage::fine_light(const StreakHit& hit, const CameraSegment& segment, const PixelVeil& veil, int slice,
+/// Light of a drop that is not looked into, from the table's for its slice.
+Rgb RainStage::fine_light(const StreakHit& hit, const CameraSegment& segment, Rgb light, int slice,
                           const Sampler& sampler) const {
-    const Rgb light = veil.light[size_t(slice)];
     if (settings_.composition == Composition::physical || !settings_.textures) return light;
     const Streak& streak = bins_->streaks()[hit.streak];
     const float time = 0.5f * (hit.covered.begin + hit.covered.end);
     const StreakPlace place = streak_place(segment.ray.direction, streak.key, 2 * streak.radius, bins_->exposure_time(),
                                            position_across(streak, segment.view_ray), time);
-    const Vec3 from = drop_light_->direction(veil.x, veil.y, slice, sampler.get_1d(Draw::streak_phase));
+    const Vec3 from =
+        drop_light_->direction(int(segment.pixel.x), int(segment.pixel.y), slice, sampler.get_1d(Draw::streak_phase));
     return light * settings_.textures->brightness(place, from);
 }
 
@@ -144,7 +143,7 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
             scratch.light.push_back(streak_light(hit, segment, scratch.distant, sampler, counters, most));
         } else {
             counters.count(Feature::streak_hit);
-            scratch.light.push_back(fine_light(hit, segment, veil, slice, of_streak));
+            scratch.light.push_back(fine_light(hit, segment, veil.light[size_t(slice)], slice, of_streak));
         }
     }
     for (size_t i = 0; i < count; ++i) {

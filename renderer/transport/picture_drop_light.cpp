@@ -1,0 +1,76 @@
+#include "renderer/transport/picture_drop_light.h"
+
+#include "renderer/core/sampling.h"
+#include "renderer/transport/camera_ray.h"
+#include "renderer/transport/scatter_function.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pluvia {
+namespace {
+
+constexpr int samples = 16;  // of a cell, for each slice that its pixels reach
+
+constexpr uint64_t drop_light_domain = 0x6472706c;
+
+/// Light of one lamp at a drop, chosen by what it may bring.
+LightSample lamp_light(const PathTracer& tracer, Vec3 position, const ScatterFunction& function, const Sampler& sampler,
+                       Rgb& contribution, Counters& counters) {
+    const Lights& lights = tracer.lights();
+    contribution = Rgb(0);
+    const auto lamp =
+        lights.choose_local({position, Vec3()}, sampler.get_1d(Draw::light_choice), sampler.get_2d(Draw::light_point));
+    if (!lamp) return {};
+    const LightSample light = lights.illuminate(position, *lamp);
+    if (is_black(light.radiance)) return light;
+    const ScatterValue scatter = evaluate_scatter(function, light.wi);
+    const float mis = light.delta ? 1.0f : power_heuristic(light.pdf, scatter.pdf);
+    contribution = light.radiance * (scatter.value * mis / light.pdf);
+    contribution *= visible_share(tracer.ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
+    return light;
+}
+
+}  // namespace
+
+DropLight picture_drop_light(const PathTracer& tracer, const FarLight& far, const PictureSource& picture,
+                             const View& view, uint64_t seed, float near, Counters& counters) {
+    const auto estimate = [&](const DropLight::Area& area, Counters& of_cell) {
+        const Vec3 ahead = scene_ray(view, {}, view_ray(view, area.middle(), {})).ray.direction;
+        DropLightSamples found(far.of_drop(ahead), ahead);
+        for (int n = 0; n < samples; ++n) {
+            const Sampler of_ray =
+                Sampler(seed, uint32_t(area.column), uint32_t(area.row), uint32_t(n)).fork(drop_light_domain);
+            const Vec2 pixel = area.at(of_ray.get_2d(Draw::pixel));
+            const Ray seen = view_ray(view, pixel, {});
+            const Ray ray = scene_ray(view, {}, seen).ray;
+            const float deepest =
+                picture.z.at(std::min(int(pixel.x), view.width - 1), std::min(int(pixel.y), view.height - 1));
+            const ScatterFunction function = DropScatter{ray.direction};
+            for (int slice = 0; slice < DropLight::slices; ++slice) {
+                const Sampler sampler = of_ray.fork(uint64_t(slice));
+                const float depth = DropLight::depth_in(slice, near, deepest, sampler.get_1d(Draw::medium_distance));
+                if (depth >= deepest) break;
+                const Vec3 position = ray.at(depth / seen.direction.z);
+                const Vec3 wi = sample_scatter(function, sampler.get_2d(Draw::streak_phase));
+                const ScatterValue scatter = evaluate_scatter(function, wi);
+                // Against what the far light has for the same direction: they differ where something is near.
+                const PathResult path =
+                    tracer.trace({position, wi}, {scatter.pdf, {position, Vec3()}}, sampler, 1, of_cell, {});
+                const Rgb around = std::isinf(path.distance) ? far.open(wi) : path.radiance;
+                const Rgb nearby = (around - far.radiance(wi)) * (scatter.value / scatter.pdf);
+                Rgb of_lamp;
+                LightSample lamp = {};
+                if (tracer.lights().has_local())
+                    lamp = lamp_light(tracer, position, function, sampler, of_lamp, of_cell);
+                found.add(slice, nearby + of_lamp, of_cell);
+                found.offer(slice, wi, luminance(around), sampler.key(Draw::light_pick));
+                found.offer(slice, lamp.wi, luminance(of_lamp), sampler.key(Draw::roulette));
+            }
+        }
+        return found;
+    };
+    return DropLight(view, 1, false, estimate, counters);
+}
+
+}  // namespace pluvia
