@@ -1,7 +1,5 @@
 #include "renderer/transport/rain_stage.h"
 
-#include "renderer/core/sampling.h"
-
 #include <algorithm>
 #include <limits>
 

@@ -1,5 +1,4 @@
 // The rain stage: light of a drop that a camera ray meets on its streak.
-#include "renderer/core/sampling.h"
 #include "renderer/transport/rain_stage.h"
 #include "shaders/streak.h"
 
