@@ -104,13 +104,13 @@ TEST_CASE("bins find exactly the hits that a search through all streaks finds") 
     }
 }
 
-TEST_CASE("masks of a pixel's positions keep every streak that one of them meets, and few others") {
+TEST_CASE("of the candidates each position of a pixel keeps every streak that its rays meet, and few others") {
     const Scenario scenario = scenarios().front();
     const View& view = scenario.view;
     const StreakBins bins(find_streaks(view, scenario.settings), view);
-    std::vector<uint32_t> candidates, touching;
-    std::vector<uint64_t> masks;
-    std::vector<StreakHit> hits, masked;
+    std::vector<uint32_t> candidates;
+    StreakBins::Touched touched;
+    std::vector<StreakHit> hits, of_touched;
     std::array<Vec2, 50> positions;
     size_t found = 0, kept = 0;
     for (uint64_t i = 0; i < 200; ++i) {
@@ -118,18 +118,14 @@ TEST_CASE("masks of a pixel's positions keep every streak that one of them meets
         for (uint64_t k = 0; k < positions.size(); ++k)
             positions[k] = {float(x) + uniform(8, i, 2 * k), float(y) + uniform(8, i, 2 * k + 1)};
         bins.find_candidates(x, y, candidates);
-        bins.find_masks(candidates, positions, masks);
-        REQUIRE(masks.size() == candidates.size());
+        bins.find_touched(candidates, positions, touched);
         for (size_t k = 0; k < positions.size(); ++k) {
-            touching.clear();
-            for (size_t c = 0; c < masks.size(); ++c)
-                if (masks[c] >> k & 1) touching.push_back(candidates[c]);
             const Ray ray = lens_ray(view, positions[k], {});
-            find_hits(bins, touching, positions[k], ray, masked);
+            find_hits(bins, touched[k], ray, of_touched);
             find_hits(bins, positions[k], ray, hits);
-            REQUIRE(masked.size() == hits.size());
-            for (size_t h = 0; h < hits.size(); ++h) CHECK(masked[h].streak == hits[h].streak);
-            found += hits.size(), kept += touching.size();
+            REQUIRE(of_touched.size() == hits.size());
+            for (size_t h = 0; h < hits.size(); ++h) CHECK(of_touched[h].streak == hits[h].streak);
+            found += hits.size(), kept += touched[k].size();
         }
     }
     CHECK(found > 1000);

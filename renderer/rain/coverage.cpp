@@ -17,9 +17,9 @@ std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, fl
         if (length_squared(a + b * (exposure / 2)) > radius * radius * d_squared) return {};
     } else {
         const double volume = dot(d, cross(w, v));  // over |b|: how far the path misses the ray
-        const double of_b = 1 / b_squared, inside = radius * radius - volume * volume * of_b;
+        const double inside = radius * radius * b_squared - volume * volume;
         if (inside <= 0) return {};
-        const double centre = -dot(a, b) * of_b, half = std::sqrt(inside * d_squared * of_b);
+        const double of_b = 1 / b_squared, centre = -dot(a, b) * of_b, half = std::sqrt(inside * d_squared) * of_b;
         begin = std::max(begin, centre - half);
         end = std::min(end, centre + half);
         if (begin >= end) return {};
@@ -27,13 +27,14 @@ std::optional<Covered> covered_interval(const Streak& streak, const Ray& ray, fl
 
     // Only while the view depth of the centre is at least the contact depth.
     const double ahead = double(streak.start.z) - contact_depth(streak);
-    if (v.z < 0) end = std::min(end, -ahead / v.z);
-    if (v.z > 0) begin = std::max(begin, -ahead / v.z);
+    if (v.z < 0 && ahead + v.z * end < 0) end = -ahead / v.z;
+    if (v.z > 0 && ahead + v.z * begin < 0) begin = -ahead / v.z;
     if (begin > end || ahead + v.z * (begin + end) / 2 < 0) return {};
 
     const float distance = float(dot(w + v * ((begin + end) / 2), d));
     if (exposure == 0) return Covered{0, 1, distance};
-    const Covered covered{float(begin / exposure), float(end / exposure), distance};
+    const double of_exposure = 1 / exposure;
+    const Covered covered{float(begin * of_exposure), float(end * of_exposure), distance};
     if (covered.begin >= covered.end) return {};
     return covered;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace pluvia {
 namespace {
@@ -162,41 +163,49 @@ std::span<const uint32_t> StreakBins::before_end(std::span<const uint32_t> candi
     return candidates.first(size_t(end - candidates.begin()));
 }
 
-void StreakBins::find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
-                            std::vector<uint64_t>& masks) const {
-    masks.clear();
+void StreakBins::find_touched(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
+                              Touched& touched) const {
+    for (size_t i = 0; i < positions.size(); ++i) touched[i].clear();
     for (const uint32_t index : candidates) {
         const StreakFootprint footprint = footprints_[index];
         uint64_t mask = 0;
         for (size_t i = 0; i < positions.size(); ++i) mask |= uint64_t(footprint.may_cover(positions[i])) << i;
-        masks.push_back(mask);
+        for (; mask; mask &= mask - 1) touched[size_t(std::countr_zero(mask))].push_back(index);
     }
 }
 
-std::optional<StreakHit> find_hit(const StreakBins& bins, uint32_t streak, const Ray& ray) {
-    const Streak& s = bins.streaks()[streak];
-    const std::optional<Covered> covered = covered_interval(s, ray, bins.exposure_time());
-    if (!covered || covered->distance >= ray.t_max) return {};
-    const float depth = covered->distance * ray.direction.z;
-    return StreakHit{streak, *covered, 2 * s.radius * bins.focal_pixels() / depth};
-}
-
-void sort_hits(const StreakBins& bins, std::vector<StreakHit>& hits) {
-    const std::span<const Streak> streaks = bins.streaks();
+/// All hits of those streaks that pass a test.
+template <class Test>
+static void find_hits_where(const StreakBins& bins, std::span<const uint32_t> streaks, const Ray& ray, const Test& test,
+                            std::vector<StreakHit>& hits) {
+    hits.clear();
+    const float farthest = bins.farthest(ray);
+    for (const uint32_t index : streaks) {
+        const StreakFootprint& footprint = bins.footprints()[index];
+        if (footprint.nearest_depth > farthest) break;
+        if (!test(footprint)) continue;
+        const Streak& streak = bins.streaks()[index];
+        const std::optional<Covered> covered = covered_interval(streak, ray, bins.exposure_time());
+        if (!covered || covered->distance >= ray.t_max) continue;
+        const float depth = covered->distance * ray.direction.z;
+        hits.push_back({index, *covered, 2 * streak.radius * bins.focal_pixels() / depth});
+    }
     std::sort(hits.begin(), hits.end(), [&](const StreakHit& a, const StreakHit& b) {
         return a.covered.distance != b.covered.distance ? a.covered.distance < b.covered.distance
-                                                        : streaks[a.streak].key < streaks[b.streak].key;
+                                                        : bins.streaks()[a.streak].key < bins.streaks()[b.streak].key;
     });
+}
+
+void find_hits(const StreakBins& bins, std::span<const uint32_t> touched, const Ray& ray,
+               std::vector<StreakHit>& hits) {
+    find_hits_where(
+        bins, touched, ray, [](const StreakFootprint&) { return true; }, hits);
 }
 
 void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
                std::vector<StreakHit>& hits) {
-    hits.clear();
-    for (const uint32_t index : bins.before_end(candidates, ray)) {
-        if (!bins.footprints()[index].may_cover(pixel)) continue;
-        if (const auto hit = find_hit(bins, index, ray)) hits.push_back(*hit);
-    }
-    sort_hits(bins, hits);
+    const auto may_cover = [pixel](const StreakFootprint& footprint) { return footprint.may_cover(pixel); };
+    find_hits_where(bins, candidates, ray, may_cover, hits);
 }
 
 }  // namespace pluvia

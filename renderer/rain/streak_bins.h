@@ -6,6 +6,7 @@
 #include "renderer/rain/coverage.h"
 #include "renderer/rain/streaks.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,10 +59,11 @@ public:
 
     /// Those of the candidates, in the order of either search, that may cover the ray before its end.
     std::span<const uint32_t> before_end(std::span<const uint32_t> candidates, const Ray& ray) const;
-    /// Which of the candidates rays through up to 64 positions on the picture may meet: bit i of masks[k] is for
-    /// candidate k and position i. Replaces masks.
-    void find_masks(std::span<const uint32_t> candidates, std::span<const Vec2> positions,
-                    std::vector<uint64_t>& masks) const;
+    /// Per position on the picture.
+    using Touched = std::array<std::vector<uint32_t>, 64>;
+    /// Those of the candidates, in their order, that rays through each of up to 64 positions may meet. Replaces
+    /// touched, as far as there are positions.
+    void find_touched(std::span<const uint32_t> candidates, std::span<const Vec2> positions, Touched& touched) const;
 
 private:
     std::vector<Streak> streaks_;
@@ -80,15 +82,12 @@ struct StreakHit {
     float width;  // of the drop in pixels, at the view depth where it covers the ray
 };
 
-/// How a streak covers the ray nearer than ray.t_max, if it does; for what find_masks has found.
-std::optional<StreakHit> find_hit(const StreakBins& bins, uint32_t streak, const Ray& ray);
-/// From front to back (ties by key).
-void sort_hits(const StreakBins& bins, std::vector<StreakHit>& hits);
-
 /// Replaces hits by all streaks that cover the ray nearer than ray.t_max, from front to back (ties by key).
-/// pixel: the position on the picture that the ray belongs to. ray: view coordinates, from a point of the lens (the
-/// origin for a pinhole) through the point in focus behind that pixel position, direction of unit length.
-/// candidates: of the pixel, from either search of the bins; looked up where they are not given.
+/// ray: view coordinates, from a point of the lens (the origin for a pinhole) through the point in focus behind a
+/// position on the picture, direction of unit length. touched: those that it may meet, of StreakBins::find_touched.
+void find_hits(const StreakBins& bins, std::span<const uint32_t> touched, const Ray& ray, std::vector<StreakHit>& hits);
+/// The same of the candidates of a pixel, from either search of the bins; looked up where they are not given.
+/// pixel: the position on the picture that the ray belongs to.
 void find_hits(const StreakBins& bins, std::span<const uint32_t> candidates, Vec2 pixel, const Ray& ray,
                std::vector<StreakHit>& hits);
 inline void find_hits(const StreakBins& bins, Vec2 pixel, const Ray& ray, std::vector<StreakHit>& hits) {

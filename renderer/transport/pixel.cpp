@@ -3,7 +3,7 @@
 #include "renderer/core/sampling.h"
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <limits>
 
 namespace pluvia {
@@ -34,10 +34,27 @@ void add_rain(Rgb background, double count, const std::vector<RainSample>& sampl
     }
 }
 
-void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scratch, Counters& counters) {
+/// Calls visit(index, position on the picture, touched) for the samples begin <= index < end; touched: those of the
+/// candidates that its rays may meet.
+template <class Visit>
+void for_each_sample(const Frame& frame, int x, int y, int begin, int end, std::span<const uint32_t> candidates,
+                     StreakBins::Touched& touched, const Visit& visit) {
+    std::array<Vec2, std::tuple_size_v<StreakBins::Touched>> positions;
+    for (int first = begin; first < end; first += int(positions.size())) {
+        const std::span<Vec2> some(positions.data(), std::min(positions.size(), size_t(end - first)));
+        Sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(first)).get_2d(Draw::pixel, some);
+        for (Vec2& position : some) position = {float(x) + position.x, float(y) + position.y};
+        if (!candidates.empty()) frame.bins->find_touched(candidates, some, touched);
+        for (size_t i = 0; i < some.size(); ++i)
+            visit(first + int(i), some[i],
+                  candidates.empty() ? std::span<const uint32_t>() : std::span<const uint32_t>(touched[i]));
+    }
+}
+
+/// pixel: the sample's position on the picture. touched: streaks that rays through it may meet.
+void add_sample(const Frame& frame, int x, int y, int index, Vec2 pixel, std::span<const uint32_t> touched,
+                PixelScratch& scratch, Counters& counters) {
     const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
-    const Vec2 u = sampler.get_2d(Draw::pixel);
-    const Vec2 pixel{float(x) + u.x, float(y) + u.y};
     if (frame.view.lens_radius > 0) counters.count(Feature::lens);
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
     const SceneRay ray = scene_ray(frame.view, frame.far_scene, seen);
@@ -64,8 +81,8 @@ void add_sample(const Frame& frame, int x, int y, int index, PixelScratch& scrat
     if (!frame.rain) return;
 
     seen.t_max = float(ray.before + path.distance);
-    CameraSegment segment{pixel, scratch.candidates, ray.ray,
-                          seen,  path.radiance,      std::max(frame.dark, mean_luminance(index + 1))};
+    CameraSegment segment{pixel, touched,       ray.ray,
+                          seen,  path.radiance, std::max(frame.dark, mean_luminance(index + 1))};
     if (frame.rain->drop_light()) segment.drop_light = &scratch.drop_light;
     if (frame.shadow)
         segment.dry =
@@ -83,12 +100,6 @@ void begin_pixel(const Frame& frame, int x, int y, PixelScratch& scratch) {
     if (frame.bins) frame.bins->find_candidates(x, y, scratch.candidates);
     const DropLight* const drop_light = frame.rain && !frame.picture ? frame.rain->drop_light() : nullptr;
     if (drop_light) drop_light->find(x, y, DropLight::slices - 1, scratch.drop_light);
-}
-
-/// Calls visit(i) for each bit i that is set, in rising order.
-template <class Visit>
-static void for_each_bit(uint64_t bits, const Visit& visit) {
-    for (; bits; bits &= bits - 1) visit(size_t(std::countr_zero(bits)));
 }
 
 /// Samples of a picture's pixel, which is the same for all of them but for the streaks that they meet.
@@ -112,42 +123,23 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
     counters.count(Feature::streak_test, samples);
     if (frame.view.lens_radius > 0) counters.count(Feature::lens, samples);
 
-    int untouched = 0;
-    std::array<Vec2, 64> positions;
-    for (int first = begin; first < end; first += int(positions.size())) {
-        const std::span<Vec2> some(positions.data(), std::min(positions.size(), size_t(end - first)));
-        const auto sampler = [&](size_t i) {
-            return Sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(first) + uint32_t(i));
-        };
-        sampler(0).get_2d(Draw::pixel, some);
-        for (Vec2& position : some) position = {float(x) + position.x, float(y) + position.y};
-        frame.bins->find_masks(segment.candidates, some, scratch.masks);
-        uint64_t touched = 0;
-        for (const uint64_t mask : scratch.masks) touched |= mask;
-        for_each_bit(touched, [&](size_t i) {
-            Ray& ray = scratch.rays[i] =
-                view_ray(frame.view, some[i], frame.view.lens_radius > 0 ? sampler(i).get_2d(Draw::lens) : Vec2());
-            ray.t_max = picture.along(x, y, ray).distance;
-            scratch.hits[i].clear();
-        });
-        for (size_t k = 0; k < scratch.masks.size(); ++k)
-            for_each_bit(scratch.masks[k], [&](size_t i) {
-                const auto hit = find_hit(*frame.bins, segment.candidates[k], scratch.rays[i]);
-                if (hit) scratch.hits[i].push_back(*hit);
-            });
-        untouched += int(some.size());
-        for_each_bit(touched, [&](size_t i) {
-            if (scratch.hits[i].empty()) return;
-            --untouched;
-            std::swap(scratch.streaks.hits, scratch.hits[i]);
-            sort_hits(*frame.bins, scratch.streaks.hits);
-            segment.pixel = some[i], seen = scratch.rays[i];
-            if (frame.rain->needs_ray(scratch.streaks.hits))
-                segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
-            frame.rain->evaluate(segment, scratch.veil, sampler(i), scratch.rain, scratch.streaks, counters);
-            add_rain(background, 1, scratch.rain, sums, counters);
-        });
-    }
+    int untouched = end - begin;
+    for_each_sample(frame, x, y, begin, end, segment.candidates, scratch.touched,
+                    [&](int index, Vec2 position, std::span<const uint32_t> touched) {
+                        if (touched.empty()) return;
+                        const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
+                        seen = view_ray(frame.view, position,
+                                        frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
+                        seen.t_max = picture.along(x, y, seen).distance;
+                        find_hits(*frame.bins, touched, seen, scratch.streaks.hits);
+                        if (scratch.streaks.hits.empty()) return;
+                        --untouched;
+                        segment.pixel = position;
+                        if (frame.rain->needs_ray(scratch.streaks.hits))
+                            segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
+                        frame.rain->evaluate(segment, scratch.veil, sampler, scratch.rain, scratch.streaks, counters);
+                        add_rain(background, 1, scratch.rain, sums, counters);
+                    });
     add_rain(background, untouched, scratch.veil.untouched, sums, counters);
 }
 
@@ -157,7 +149,10 @@ void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScra
     else if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
         add(scratch.film.sums.background, frame.picture->radiance.at(x, y) * float(end - begin));
     else
-        for (int s = begin; s < end; ++s) add_sample(frame, x, y, s, scratch, counters);
+        for_each_sample(frame, x, y, begin, end, scratch.candidates, scratch.touched,
+                        [&](int index, Vec2 position, std::span<const uint32_t> touched) {
+                            add_sample(frame, x, y, index, position, touched, scratch, counters);
+                        });
 }
 
 void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {

@@ -59,9 +59,7 @@ struct PixelScratch {
     DropLight::Slices drop_light;
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
-    std::vector<uint64_t> masks;       // of samples that a candidate may touch
-    std::array<Ray, 64> rays;          // of some samples
-    std::array<std::vector<StreakHit>, 64> hits;
+    StreakBins::Touched touched;       // of them, for some samples
     std::vector<float> values;
     std::vector<uint32_t> ids;
 };

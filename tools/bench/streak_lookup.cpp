@@ -9,6 +9,7 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -58,6 +59,42 @@ void report(const std::string& name, double build, size_t bytes, const View& vie
     std::printf("  %-14s %9.1f %9.1f %9.1f %10.4f %12.8f\n", name.c_str(), build * 1e3, double(bytes) * 1e-6,
                 best * 1e9 / double(totals.rays), double(totals.hits) / double(totals.rays),
                 totals.fraction / double(totals.rays));
+}
+
+// 64 rays at random positions in every eighth pixel of every eighth row: what they share is found once.
+void report_shared(const StreakBins& bins, const View& view, float t_max) {
+    constexpr int samples = 64, step = 8;
+    std::vector<uint32_t> candidates;
+    std::array<Vec2, samples> positions;
+    StreakBins::Touched touched;
+    std::vector<StreakHit> hits;
+    double best = 1e30;
+    size_t rays = 0, found = 0;
+    for (int repeat = 0; repeat < 3; ++repeat) {
+        double spent = 0;
+        rays = found = 0;
+        for (int y = 0; y < view.height; y += step)
+            for (int x = 0; x < view.width; x += step) {
+                std::array<Ray, samples> of_pixel;
+                for (int i = 0; i < samples; ++i) {
+                    const uint64_t key = hash_key(8, x, y * samples + i);
+                    positions[i] = {float(x) + unit_float(key), float(y) + unit_float(mix_bits(key))};
+                    of_pixel[i] = {{}, normalize(view.view_direction(positions[i])), t_max};
+                }
+                const double begin = seconds();
+                bins.find_candidates(x, y, candidates);
+                bins.find_touched(candidates, positions, touched);
+                for (int i = 0; i < samples; ++i) {
+                    find_hits(bins, touched[i], of_pixel[i], hits);
+                    found += hits.size();
+                }
+                spent += seconds() - begin;
+                rays += samples;
+            }
+        best = std::min(best, spent);
+    }
+    std::printf("  bins, 64 rays of each pixel together: %.1f ns/ray, %.4f hits/ray, %.1f ns/hit\n",
+                best * 1e9 / double(rays), double(found) / double(rays), best * 1e9 / double(found));
 }
 
 // What an Embree callback needs: the streaks, the ray at hand and the hits found so far.
@@ -191,6 +228,7 @@ int main() {
                     report("bins " + std::to_string(width) + "x" + std::to_string(height), build, bytes, view, t_max,
                            [&](Vec2 pixel, const Ray& ray, auto& hits) { find_hits(bins, pixel, ray, hits); });
                 }
+                report_shared(StreakBins(streaks, view), view, t_max);
                 for (bool quads : {false, true}) {
                     StreakScene scene;
                     size_t bytes = streaks.size() * sizeof(Streak);
