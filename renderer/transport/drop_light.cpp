@@ -44,22 +44,22 @@ DropLight::DropLight(const View& view, int least_size, bool smooth, const Estima
 
 DropLight::Cell DropLight::mean(const DropLightSamples& samples) {
     Cell result;
-    Rgb mean;
+    Light mean;
     std::array<Vec3, directions> from;
     from.fill(samples.ahead_);
     const double most = std::ranges::max(samples.sums_, {}, &DropLightSamples::Sum::count).count();
     for (size_t k = 0; k < slices; ++k) {
-        const auto& [r, g, b, count] = samples.sums_[k].light_and_count;
+        const auto& [r, g, b, lamps, count] = samples.sums_[k].light_and_count;
         // A slice without samples has what is before it.
         if (count > 0) {
-            mean = Rgb(float(r / count), float(g / count), float(b / count));
+            mean = {Rgb(float(r / count), float(g / count), float(b / count)), float(lamps / count)};
             for (size_t i = 0; i < from.size(); ++i) {
                 const Vec3 chosen = samples.from_[k].chosen[i];
                 from[i] = length_squared(chosen) > 0 ? chosen : samples.ahead_;
             }
         }
-        const Rgb light = samples.base_ + mean;
-        result.light[k] = Rgb(std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b));
+        const Rgb light = samples.base_ + mean.radiance;
+        result.light[k] = {Rgb(std::max(0.0f, light.r), std::max(0.0f, light.g), std::max(0.0f, light.b)), mean.lamps};
         result.known[k] = most > 0 ? float(count / most) : 0;
         result.from[k] = from;
     }
@@ -90,14 +90,15 @@ void DropLight::find(int x, int y, int last, Slices& light) const {
     const std::array<const Cell*, 4> cells = {&cell(x0, y0), &cell(x1, y0), &cell(x0, y1), &cell(x1, y1)};
     const std::array<float, 4> weights = {(1 - s) * (1 - t), s * (1 - t), (1 - s) * t, s * t};
     for (size_t k = 0; k <= size_t(last); ++k) {
-        Rgb sum;
+        Light sum;
         float known = 0;
         for (size_t i = 0; i < cells.size(); ++i) {
             const float weight = weights[i] * cells[i]->known[k];
-            sum += cells[i]->light[k] * weight;
+            sum.radiance += cells[i]->light[k].radiance * weight;
+            sum.lamps += cells[i]->light[k].lamps * weight;
             known += weight;
         }
-        light[k] = known > 0 ? sum * (1 / known) : cells[0]->light[k];
+        light[k] = known > 0 ? Light{sum.radiance * (1 / known), sum.lamps / known} : cells[0]->light[k];
     }
 }
 
@@ -106,13 +107,13 @@ Vec3 DropLight::direction(int x, int y, int slice, float u) const {
     return here.from[size_t(slice)][std::min(size_t(u * directions), size_t(directions - 1))];
 }
 
-void DropLightSamples::add(int slice, Rgb light, Counters& counters) {
-    if (!is_finite(light)) {
+void DropLightSamples::add(int slice, const DropLight::Light& light, Counters& counters) {
+    if (!is_finite(light.radiance) || !std::isfinite(light.lamps)) {
         ++counters.invalid_samples;
         return;
     }
-    auto& [r, g, b, count] = sums_[size_t(slice)].light_and_count;
-    r += light.r, g += light.g, b += light.b, ++count;
+    auto& [r, g, b, lamps, count] = sums_[size_t(slice)].light_and_count;
+    r += light.radiance.r, g += light.radiance.g, b += light.radiance.b, lamps += light.lamps, ++count;
 }
 
 void DropLightSamples::offer(int slice, Vec3 direction, float weight, uint64_t key) {

@@ -24,7 +24,12 @@ public:
     /// Where the light of a cell comes from, as this many directions of equal share.
     static constexpr int directions = 4;
 
-    using Slices = std::array<Rgb, slices>;
+    /// Of drops towards the camera.
+    struct Light {
+        Rgb radiance;     // cd/m2
+        float lamps = 0;  // luminance that lamps bring straight if nothing shadows them, where radiance lacks it, cd/m2
+    };
+    using Slices = std::array<Light, slices>;
 
     /// The pixels of a cell.
     struct Area {
@@ -48,8 +53,7 @@ public:
     /// last slice, where all is far away, its begin.
     static float depth_in(int slice, float near, float deepest, float u);
 
-    /// Radiance of drops towards the camera in the slices up to `last`, for a pixel, cd/m2: between the middles of
-    /// cells, of those that know it.
+    /// Light of drops in the slices up to `last`, for a pixel: between the middles of cells, of those that know it.
     void find(int x, int y, int last, Slices& light) const;
     /// From where a drop in a slice is lit: one of its directions. u: uniform in [0, 1).
     Vec3 direction(int x, int y, int slice, float u) const;
@@ -75,16 +79,16 @@ public:
     DropLightSamples(Rgb base, Vec3 ahead) : base_(base), ahead_(ahead) {}
 
     /// Light that is not finite is counted as invalid.
-    void add(int slice, Rgb light, Counters& counters);
+    void add(int slice, const DropLight::Light& light, Counters& counters);
     /// A direction that light comes from, with a weight in proportion to that light. key: of random numbers.
     void offer(int slice, Vec3 direction, float weight, uint64_t key);
 
 private:
     friend class DropLight;
     struct Sum {
-        std::array<double, 4> light_and_count = {};
+        std::array<double, 5> light_and_count = {};  // r, g, b, lamps
 
-        double count() const { return light_and_count[3]; }
+        double count() const { return light_and_count[4]; }
         /// This, in the middle, and those before and after it.
         Sum smoothed(const Sum& before, const Sum& after) const;
     };

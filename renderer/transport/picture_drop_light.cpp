@@ -63,7 +63,7 @@ DropLight picture_drop_light(const PathTracer& tracer, const FarLight& far, cons
                 LightSample lamp = {};
                 if (tracer.lights().has_local())
                     lamp = lamp_light(tracer, position, function, sampler, of_lamp, of_cell);
-                found.add(slice, nearby + of_lamp, of_cell);
+                found.add(slice, {nearby + of_lamp}, of_cell);
                 found.offer(slice, wi, luminance(around), sampler.key(Draw::light_pick));
                 found.offer(slice, lamp.wi, luminance(of_lamp), sampler.key(Draw::roulette));
             }

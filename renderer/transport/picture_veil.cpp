@@ -57,7 +57,7 @@ void RainStage::find_medium(const CameraSegment& segment, PixelVeil& veil) const
                 const float depth = (slice_depths_[size_t(k) * count + i] - depths[i]) / cosine;
                 next = std::clamp(std::exp(-depth), end, here);
             }
-            sum += veil.light[size_t(k)] * (here - next);
+            sum += veil.light[size_t(k)].radiance * (here - next);
             here = next;
         }
         veil.untouched[i].inscatter = sum;
@@ -84,7 +84,7 @@ void RainStage::find_before_streaks(float cosine, PixelVeil& veil) const {
             const size_t begin = size_t(slice) * count + i;
             veil.passed[k * count + i] = passed;
             veil.before[k * count + i] =
-                veil.inscatter[begin] + veil.light[size_t(slice)] * (veil.transmissions[begin] - passed);
+                veil.inscatter[begin] + veil.light[size_t(slice)].radiance * (veil.transmissions[begin] - passed);
         }
     }
 }
@@ -123,14 +123,15 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
         if (medium_) std::copy_n(&veil.before[place * count], count, &scratch.veil[k * count]);
         if (!paper && hit.width <= 1) {
             counters.count(Feature::streak_hit);
-            scratch.light.push_back(veil.light[size_t(slice)]);
+            scratch.light.push_back(veil.light[size_t(slice)].radiance);
             continue;
         }
         const Sampler of_streak = streak_sampler(hit, sampler);
         if (!paper && shows_picture(hit, of_streak)) {
             // What the light may be worth is known here before it is sampled, but not which lamp the drop shows.
             // Lamps expected to bring more than that cost more time than the noise they save is worth.
-            const float brightness = std::max(segment.background_luminance, luminance(veil.light[size_t(slice)]));
+            const float brightness =
+                std::max(segment.background_luminance, luminance(veil.light[size_t(slice)].radiance));
             const float most = worth(hit.covered.fraction() * brightness, segment, settings_.streak_roulette);
             if (!(most >= 1) && of_streak.get_1d(Draw::streak_choice) >= most) {
                 counters.count(Feature::streak_hit);
@@ -142,7 +143,7 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
             scratch.light.push_back(streak_light(hit, segment, scratch.distant, sampler, counters, most));
         } else {
             counters.count(Feature::streak_hit);
-            scratch.light.push_back(fine_light(hit, segment, veil.light[size_t(slice)], slice, of_streak));
+            scratch.light.push_back(fine_light(hit, segment, veil.light[size_t(slice)].radiance, slice, of_streak));
         }
     }
     for (size_t i = 0; i < count; ++i) {

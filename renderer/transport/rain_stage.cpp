@@ -16,7 +16,7 @@ RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, const Rai
 bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
                          RainScratch& scratch, Counters& counters) const {
     counters.count(Feature::streak_test);
-    find_hits(*bins_, segment.candidates, segment.pixel, segment.view_ray, scratch.hits);
+    find_hits(*bins_, segment.candidates, segment.view_ray, scratch.hits);
     scratch.scattered_count = 0;
     scratch.veil.clear();
     scratch.transmissions.assign((scratch.hits.size() + 1) * intensities_.size(), 1.0f);
@@ -33,10 +33,10 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
     if (!tabled || std::ranges::any_of(scratch.hits, is_wide)) sample_distant(sampler, scratch);
     if (!in_rain.empty()) {
         find_transmissions(in_rain, scratch);
+        if (tabled) find_veil(segment, in_rain, scratch);
         if (!tabled || tracer_->lights().has_local())
             scatter(Scatterer::drop, segment, in_rain, sampler, scratch, counters);
         if (medium_->has_fog()) scatter(Scatterer::fog, segment, in_rain, sampler, scratch, counters);
-        if (tabled) find_veil(segment, in_rain, scratch);
     }
     scratch.light.clear();
     for (const StreakHit& hit : scratch.hits)

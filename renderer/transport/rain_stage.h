@@ -44,7 +44,7 @@ struct StreakSettings {
 /// From the camera to the first surface.
 struct CameraSegment {
     Vec2 pixel;                            // position on the picture
-    std::span<const uint32_t> candidates;  // of StreakBins::find_candidates for that pixel
+    std::span<const uint32_t> candidates;  // streaks that rays through it may meet, in the order of StreakBins
     Ray ray;                               // scene coordinates
     Ray view_ray;                          // the same in view coordinates; t_max = distance to the first surface
     Rgb background;                        // radiance that arrives along the ray without rain
@@ -75,8 +75,9 @@ struct RainScratch {
     std::array<Scattered, 4> scattered;  // the first scattered_count are valid, in order of distance
     int scattered_count = 0;
     RainMedium::Scattering scattering;
-    std::vector<Rgb> veil;              // of a table: in-scattered light up to each hit and to the end, per intensity
-    std::vector<float> passed, depths;  // buffers of find_veil
+    std::vector<Rgb> veil;         // of a table: in-scattered light up to each hit and to the end, per intensity
+    std::vector<float> lamp_veil;  // of a table: what lamps bring to the medium if nothing shadows them, cd/m2
+    std::vector<float> passed, begin_depths, depths;  // buffers of find_veil
 };
 
 /// What the samples of a pixel share in front of pictures: light of drops along its ray, and the medium between the
@@ -139,10 +140,12 @@ private:
     Rgb fine_light(const StreakHit& hit, const CameraSegment& segment, Rgb light, int slice,
                    const Sampler& sampler) const;
     void find_veil(const CameraSegment& segment, const RainSegment& in_rain, RainScratch& scratch) const;
+    void find_depths(const RainSegment& in_rain, int slice, RainScratch& scratch) const;
     Rgb tabled_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,
                      const Sampler& sampler, Counters& counters) const;
-    Rgb lamp_light(const StreakHit& hit, const CameraSegment& segment, const Sampler& streak_sampler,
+    Rgb lamp_light(const StreakHit& hit, const CameraSegment& segment, float expected, const Sampler& streak_sampler,
                    Counters& counters) const;
+    static float lamp_worth(float expected, const CameraSegment& segment, double roulette);
     float streak_weight(const StreakHit& hit, const CameraSegment& segment) const;
     /// most: of the probability with which the light is computed.
     Rgb streak_light(const StreakHit& hit, const CameraSegment& segment, const std::optional<LightSample>& distant,

@@ -2,7 +2,7 @@
 
 #include "renderer/core/sampling.h"
 #include "renderer/transport/camera_ray.h"
-#include "renderer/transport/scatter_function.h"
+#include "renderer/transport/scattered_light.h"
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,7 @@ namespace {
 constexpr int least_size = 2;                                               // pixels of a cell
 constexpr int pixels_per_sample = 4, least_samples = 4, most_samples = 64;  // of a cell and slice
 
-constexpr uint64_t drop_light_domain = 0x64726f70;
+constexpr uint64_t drop_light_domain = 0x64726f70, lamp_domain = 0x6c616d70;
 
 class SceneDropLight {
 public:
@@ -70,7 +70,10 @@ private:
             tracer_.trace({position, wi}, {scatter.pdf, {position, Vec3()}, samples_alone}, sampler, 1, counters, {});
         const Rgb of_path = path.radiance * (scatter.value / scatter.pdf);
         found.offer(slice, wi, luminance(of_path), sampler.key(Draw::roulette));
-        found.add(slice, light + of_path, counters);
+        const ScatterFunction function = drop;
+        const Sampler lamp_sampler = sampler.fork(lamp_domain);
+        const ScatteredLight of_lamps(tracer_, function, position, lamp_sampler);
+        found.add(slice, {light + of_path, of_lamps.unshadowed()}, counters);
     }
 
     const PathTracer& tracer_;
