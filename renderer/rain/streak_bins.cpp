@@ -179,11 +179,8 @@ template <class Test>
 static void find_hits_where(const StreakBins& bins, std::span<const uint32_t> streaks, const Ray& ray, const Test& test,
                             std::vector<StreakHit>& hits) {
     hits.clear();
-    const float farthest = bins.farthest(ray);
-    for (const uint32_t index : streaks) {
-        const StreakFootprint& footprint = bins.footprints()[index];
-        if (footprint.nearest_depth > farthest) break;
-        if (!test(footprint)) continue;
+    for (const uint32_t index : bins.before_end(streaks, ray)) {
+        if (!test(bins.footprints()[index])) continue;
         const Streak& streak = bins.streaks()[index];
         const std::optional<Covered> covered = covered_interval(streak, ray, bins.exposure_time());
         if (!covered || covered->distance >= ray.t_max) continue;
