@@ -112,6 +112,10 @@ Vec3d direction_from_azimuth(double azimuth, double elevation) {
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)};
 }
 
+Vec3 direction_from_equirectangular(double u, double v) {
+    return Vec3(direction_from_azimuth((u - 0.25) * 2 * pi_d, (0.5 - v) * pi_d));
+}
+
 Vec2 equirectangular_from_direction(Vec3 d) {
     // The arc tangent of the elevation keeps its precision at the poles, where the arc sine of y would lose half of it.
     const float elevation = fast_atan2(d.y, std::sqrt(d.x * d.x + d.z * d.z));

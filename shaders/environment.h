@@ -24,6 +24,9 @@ namespace pluvia {
 /// Unit vector towards an azimuth and an elevation, both in radians.
 Vec3d direction_from_azimuth(double azimuth, double elevation);
 
+/// Unit direction at a position (u, v) in an equirectangular picture.
+Vec3 direction_from_equirectangular(double u, double v);
+
 /// Position (u, v) in an equirectangular picture of a unit direction. u in [0, 1], where 0 and 1 are the same place; at
 /// the zenith (v = 0) and the nadir (v = 1) u is arbitrary.
 Vec2 equirectangular_from_direction(Vec3 direction);

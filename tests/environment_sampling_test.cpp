@@ -39,7 +39,7 @@ double p_value_of_samples(const Environment& sampled, const Environment& environ
     std::vector<double> expected(size_t(width) * height + 1), found(expected.size());
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const Vec3 centre = direction_at((x + 0.5) / width, (y + 0.5) / height);
+            const Vec3 centre = direction_from_equirectangular((x + 0.5) / width, (y + 0.5) / height);
             REQUIRE(!(has_sun && in_disc(sun, centre)));
             expected[size_t(y) * width + x] = double(environment.pdf(centre)) * texel_solid_angle(width, height, y);
         }
@@ -105,7 +105,7 @@ TEST_CASE("samples of a clear sky with sun and moon follow their pdf") {
     for (int y = 0; y < height * points; ++y)
         for (int x = 0; x < width * points; ++x) {
             const double u = (x + 0.5) / (width * points), v = (y + 0.5) / (height * points);
-            const Vec3 direction = direction_at(u, v);
+            const Vec3 direction = direction_from_equirectangular(u, v);
             const int cell = cell_of(direction, u, v);
             if (cell < columns * rows)
                 expected[size_t(cell)] +=
@@ -149,7 +149,7 @@ TEST_CASE("the pdf integrates to one") {
         double sum = 0;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x)
-                sum += double(environment.pdf(direction_at((x + 0.5) / width, (y + 0.5) / height))) *
+                sum += double(environment.pdf(direction_from_equirectangular((x + 0.5) / width, (y + 0.5) / height))) *
                        texel_solid_angle(width, height, y);
         return sum;
     };
@@ -176,7 +176,7 @@ TEST_CASE("sampling finds the light that quadrature finds") {
         for (int y = 0; y < rows; ++y) {
             const double solid_angle = texel_solid_angle(columns, rows, y);
             for (int x = 0; x < columns; ++x) {
-                const Vec3 direction = direction_at((x + 0.5) / columns, (y + 0.5) / rows);
+                const Vec3 direction = direction_from_equirectangular((x + 0.5) / columns, (y + 0.5) / rows);
                 const Rgb disc = sun.radiance(direction);
                 const double sky = luminance(environment.radiance(direction) - disc);
                 mean += sky * solid_angle / (4 * pi_d);

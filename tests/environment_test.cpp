@@ -90,7 +90,7 @@ TEST_CASE("pictures are checked when they come in") {
     picture.at(1, 1).g = std::numeric_limits<float>::infinity();
     CHECK_THROWS_AS(Environment{picture}, Error);
     picture.at(1, 1).g = -1;  // as resampling leaves it
-    CHECK(Environment(picture).radiance(direction_at(1.5 / 4, 1.5 / 2)).g < 1e-5f);
+    CHECK(Environment(picture).radiance(direction_from_equirectangular(1.5 / 4, 1.5 / 2)).g < 1e-5f);
 }
 
 TEST_CASE("directions close to a pole and on the seam have finite radiance and pdf") {

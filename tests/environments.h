@@ -5,8 +5,6 @@
 #include "renderer/core/units.h"
 #include "shaders/environment.h"
 
-#include <numbers>
-
 namespace pluvia {
 
 /// Every texel different, with steps, zeros and a dark row.
@@ -25,11 +23,6 @@ inline Disc small_sun() {
     sun.direction = Vec3(direction_from_azimuth(radians_from_degrees(130), radians_from_degrees(35)));
     sun.strips = {{9e6f, 8e6f, 6e6f}};
     return sun;
-}
-
-/// Direction at a position in an equirectangular picture.
-inline Vec3 direction_at(double u, double v) {
-    return Vec3(direction_from_azimuth(2 * std::numbers::pi * (u - 0.25), std::numbers::pi * (0.5 - v)));
 }
 
 /// A sample from random numbers of its own.

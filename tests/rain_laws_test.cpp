@@ -27,8 +27,7 @@ Environment ahead_and_beside(double degrees, Rgb ahead, Rgb beside) {
     Image<Rgb> picture(1024, 512);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
-            const Vec3d d = direction_from_azimuth(2 * pi_d * ((x + 0.5) / picture.width - 0.25),
-                                                   pi_d * (0.5 - (y + 0.5) / picture.height));
+            const Vec3 d = direction_from_equirectangular((x + 0.5) / picture.width, (y + 0.5) / picture.height);
             picture.at(x, y) = -d.z > std::cos(degrees * pi_d / 180) ? ahead : beside;
         }
     return Environment(std::move(picture));

@@ -25,8 +25,10 @@ const Receiver here = {{1, 0, 2}, {0, 1, 0}};
 std::vector<SkySight> two_gaps(const Environment& environment) {
     std::vector<SkySight> sights;
     for (int i = 0; i < 600; ++i)
-        sights.push_back({here, environment.sky(direction_at(0.2 + 0.1 * uniform(3, i, 0), 0.2)).block});
-    for (int i = 0; i < 50; ++i) sights.push_back({here, environment.sky(direction_at(0.7, 0.3)).block});
+        sights.push_back(
+            {here, environment.sky(direction_from_equirectangular(0.2 + 0.1 * uniform(3, i, 0), 0.2)).block});
+    for (int i = 0; i < 50; ++i)
+        sights.push_back({here, environment.sky(direction_from_equirectangular(0.7, 0.3)).block});
     return sights;
 }
 
@@ -47,7 +49,8 @@ TEST_CASE("guided samples of the sky follow their pdf") {
         constexpr int count = 400000;
         for (int y = 0; y < height; ++y)
             for (int x = 0; x < width; ++x) {
-                const EnvironmentSample sky = environment.sky(direction_at((x + 0.5) / width, (y + 0.5) / height));
+                const EnvironmentSample sky =
+                    environment.sky(direction_from_equirectangular((x + 0.5) / width, (y + 0.5) / height));
                 const double solid_angle =
                     2 * std::numbers::pi / width *
                     (std::cos(std::numbers::pi * y / height) - std::cos(std::numbers::pi * (y + 1) / height));
@@ -90,7 +93,8 @@ TEST_CASE("what a guide learns does not depend on the order of what it is told")
     std::vector<SkySight> sights = two_gaps(environment);
     for (int i = 0; i < 3000; ++i) {
         const Vec3 at(20 * uniform(5, i, 0), 3 * uniform(5, i, 1), 20 * uniform(5, i, 2));
-        sights.push_back({{at, {0, 1, 0}}, environment.sky(direction_at(uniform(5, i, 3), 0.1)).block});
+        sights.push_back(
+            {{at, {0, 1, 0}}, environment.sky(direction_from_equirectangular(uniform(5, i, 3), 0.1)).block});
     }
     const SkyGuide guide(environment, sights);
     std::reverse(sights.begin(), sights.end());

@@ -5,6 +5,7 @@
 #include "renderer/scene/texture_size.h"
 #include "renderer/transport/passes.h"
 #include "shaders/streak_files.h"
+#include "shaders/streak_textures.h"
 #include "tools/frame_in_time.h"
 #include "tools/label_rules.h"
 #include "tools/sample_choice.h"

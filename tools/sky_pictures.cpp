@@ -17,10 +17,6 @@ constexpr double pi_d = std::numbers::pi;
 constexpr int margin = 6;       // pixels around a disc
 constexpr double sky_gain = 1;  // stops; a meter shows a sky that fills the view darker than one likes to look at it
 
-Vec3 direction_at(double u, double v) {
-    return Vec3(direction_from_azimuth(2 * pi_d * (u - 0.25), pi_d * (0.5 - v)));
-}
-
 bool is_near_disc(const Environment& sky, Vec3 direction, float distance) {
     for (const Disc& disc : sky.discs())
         if (length(direction - disc.direction) < disc.angular_radius + distance) return true;
@@ -33,7 +29,7 @@ Rgb mean_radiance(const Environment& sky, double u, double v, double du, double 
     double r = 0, g = 0, b = 0;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
-            const Rgb c = sky.radiance(direction_at(u + du * (i + 0.5) / n, v + dv * (j + 0.5) / n));
+            const Rgb c = sky.radiance(direction_from_equirectangular(u + du * (i + 0.5) / n, v + dv * (j + 0.5) / n));
             r += c.r, g += c.g, b += c.b;
         }
     return Rgb(float(r), float(g), float(b)) / float(n * n);
@@ -46,7 +42,7 @@ Image<Rgb> panorama(const Environment& sky, int width, int height) {
     const auto texel = float(2 * pi_d / width);
     parallel_for(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            const Vec3 centre = direction_at((x + 0.5) / width, (y + 0.5) / height);
+            const Vec3 centre = direction_from_equirectangular((x + 0.5) / width, (y + 0.5) / height);
             picture.at(x, y) =
                 is_near_disc(sky, centre, texel)
                     ? mean_radiance(sky, double(x) / width, double(y) / height, 1.0 / width, 1.0 / height)

@@ -1,7 +1,6 @@
 #include "renderer/transport/far_light.h"
 
 #include "renderer/core/parallel.h"
-#include "renderer/core/units.h"
 #include "shaders/environment.h"
 #include "shaders/raindrop.h"
 
@@ -17,10 +16,6 @@ namespace {
 constexpr int table_width = 64, table_height = 32, source_width = 128, source_height = 64;
 constexpr int points = 4;  // across a source: the sun of a picture of the sky is smaller than a source
 
-Vec3 direction_of(double x, double y, int width, int height) {
-    return Vec3(direction_from_azimuth((x / width - 0.25) * 2 * pi, (0.5 - y / height) * pi));
-}
-
 Image<Rgb> cell_means(const std::function<Rgb(Vec3)>& radiance) {
     Image<Rgb> cells(source_width, source_height);
     parallel_for(source_height, [&](int y) {
@@ -28,8 +23,8 @@ Image<Rgb> cell_means(const std::function<Rgb(Vec3)>& radiance) {
             Rgb sum;
             for (int j = 0; j < points; ++j)
                 for (int i = 0; i < points; ++i)
-                    sum += radiance(
-                        direction_of(x + (i + 0.5) / points, y + (j + 0.5) / points, source_width, source_height));
+                    sum += radiance(direction_from_equirectangular((x + (i + 0.5) / points) / source_width,
+                                                                   (y + (j + 0.5) / points) / source_height));
             cells.at(x, y) = sum / float(points * points);
         }
     });
@@ -48,12 +43,12 @@ FarLight::FarLight(const std::function<Rgb(Vec3)>& radiance, const std::function
     std::vector<Source> sources;
     for (int y = 0; y < source_height; ++y)
         for (int x = 0; x < source_width; ++x) {
-            const Vec3 d = direction_of(x + 0.5, y + 0.5, source_width, source_height);
+            const Vec3 d = direction_from_equirectangular((x + 0.5) / source_width, (y + 0.5) / source_height);
             sources.push_back({d, radiance_.at(x, y), std::sqrt(std::max(0.0f, 1 - d.y * d.y))});
         }
     parallel_for(table_height, [&](int y) {
         for (int x = 0; x < table_width; ++x) {
-            const Vec3 towards = direction_of(x + 0.5, y + 0.5, table_width, table_height);
+            const Vec3 towards = direction_from_equirectangular((x + 0.5) / table_width, (y + 0.5) / table_height);
             std::array<double, 3> sum = {};
             double weights = 0;
             for (const Source& source : sources) {

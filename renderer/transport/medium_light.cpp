@@ -2,6 +2,7 @@
 #include "renderer/core/sampling.h"
 #include "renderer/transport/equiangular.h"
 #include "renderer/transport/rain_stage.h"
+#include "renderer/transport/scattered_light.h"
 
 #include <algorithm>
 

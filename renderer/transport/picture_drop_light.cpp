@@ -1,8 +1,7 @@
 #include "renderer/transport/picture_drop_light.h"
 
-#include "renderer/core/sampling.h"
 #include "renderer/transport/camera_ray.h"
-#include "renderer/transport/scatter_function.h"
+#include "renderer/transport/scattered_light.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,23 +12,6 @@ namespace {
 constexpr int samples = 16;  // of a cell, for each slice that its pixels reach
 
 constexpr uint64_t drop_light_domain = 0x6472706c;
-
-/// Light of one lamp at a drop, chosen by what it may bring.
-LightSample lamp_light(const PathTracer& tracer, Vec3 position, const ScatterFunction& function, const Sampler& sampler,
-                       Rgb& contribution, Counters& counters) {
-    const Lights& lights = tracer.lights();
-    contribution = Rgb(0);
-    const auto lamp =
-        lights.choose_local({position, Vec3()}, sampler.get_1d(Draw::light_choice), sampler.get_2d(Draw::light_point));
-    if (!lamp) return {};
-    const LightSample light = lights.illuminate(position, *lamp);
-    if (is_black(light.radiance)) return light;
-    const ScatterValue scatter = evaluate_scatter(function, light.wi);
-    const float mis = light.delta ? 1.0f : power_heuristic(light.pdf, scatter.pdf);
-    contribution = light.radiance * (scatter.value * mis / light.pdf);
-    contribution *= visible_share(tracer.ray_scene(), position, light, {sampler.key(Draw::light_point)}, counters);
-    return light;
-}
 
 }  // namespace
 
@@ -59,13 +41,12 @@ DropLight picture_drop_light(const PathTracer& tracer, const FarLight& far, cons
                     tracer.trace({position, wi}, {scatter.pdf, {position, Vec3()}}, sampler, 1, of_cell, {});
                 const Rgb around = std::isinf(path.distance) ? far.open(wi) : path.radiance;
                 const Rgb nearby = (around - far.radiance(wi)) * (scatter.value / scatter.pdf);
-                Rgb of_lamp;
-                LightSample lamp = {};
-                if (tracer.lights().has_local())
-                    lamp = lamp_light(tracer, position, function, sampler, of_lamp, of_cell);
+                const ScatteredLight lamps(tracer, function, position, std::nullopt, sampler);
+                const Rgb of_lamp = lamps.trace_lights({}, of_cell);
                 found.add(slice, {nearby + of_lamp}, of_cell);
                 found.offer(slice, wi, luminance(around), sampler.key(Draw::light_pick));
-                found.offer(slice, lamp.wi, luminance(of_lamp), sampler.key(Draw::roulette));
+                if (lamps.lamp())
+                    found.offer(slice, lamps.lamp_direction(), luminance(of_lamp), sampler.key(Draw::roulette));
             }
         }
         return found;

@@ -217,8 +217,7 @@ Environment estimate_environment(const PictureSource& picture, const View& view,
     Image<Rgb> sky(width, height);
     for (int v = 0; v < height; ++v)
         for (int u = 0; u < width; ++u) {
-            const double azimuth = ((u + 0.5) / width - 0.25) * 2 * pi, elevation = (0.5 - (v + 0.5) / height) * pi;
-            const Vec3d world = direction_from_azimuth(azimuth, elevation);
+            const Vec3d world(direction_from_equirectangular((u + 0.5) / width, (v + 0.5) / height));
             const Vec3d d = view.view_from_world(view.position + world);
             const float across = std::clamp(float(std::atan2(d.x, std::abs(d.z))), left, right);
             const float above = std::asin(std::clamp(float(d.y), -1.0f, 1.0f));

@@ -7,14 +7,6 @@
 
 namespace pluvia {
 
-void RainStage::set_drop_light(const DropLight& light) {
-    drop_light_ = &light;
-    if (!medium_) return;
-    slice_depths_.resize(DropLight::slices * intensities_.size());
-    for (int k = 0; k + 1 < DropLight::slices; ++k)
-        medium_->axis_depths(DropLight::end_of(k), &slice_depths_[size_t(k) * intensities_.size()]);
-}
-
 void RainStage::begin_pixel(int x, int y, const CameraSegment& segment, PixelVeil& veil) const {
     const float cosine = segment.view_ray.direction.z;
     const size_t count = intensities_.size();
@@ -89,19 +81,6 @@ void RainStage::find_before_streaks(float cosine, PixelVeil& veil) const {
     }
 }
 
-/// Light of a drop that is not looked into, from the table's for its slice.
-Rgb RainStage::fine_light(const StreakHit& hit, const CameraSegment& segment, Rgb light, int slice,
-                          const Sampler& sampler) const {
-    if (settings_.composition == Composition::physical || !settings_.textures) return light;
-    const Streak& streak = bins_->streaks()[hit.streak];
-    const float time = 0.5f * (hit.covered.begin + hit.covered.end);
-    const StreakPlace place = streak_place(segment.ray.direction, streak.key, 2 * streak.radius, bins_->exposure_time(),
-                                           position_across(streak, segment.view_ray), time);
-    const Vec3 from =
-        drop_light_->direction(int(segment.pixel.x), int(segment.pixel.y), slice, sampler.get_1d(Draw::streak_phase));
-    return light * settings_.textures->brightness(place, from);
-}
-
 bool RainStage::needs_ray(std::span<const StreakHit> hits) const {
     return settings_.textures || std::ranges::any_of(hits, [](const StreakHit& hit) { return hit.width > 1; });
 }
@@ -150,9 +129,7 @@ void RainStage::evaluate(const CameraSegment& segment, PixelVeil& veil, const Sa
         scratch.transmissions[hits * count + i] = veil.untouched[i].transmission;
         if (medium_) scratch.veil[hits * count + i] = veil.untouched[i].inscatter;
     }
-    if (paper) counters.count(Feature::paper_streak);
-    for (size_t i = 0; i < count; ++i)
-        paper ? compose_paper(scratch, segment, i, samples[i]) : compose_physical(scratch, i, samples[i]);
+    compose(scratch, segment, samples, counters);
 }
 
 }  // namespace pluvia

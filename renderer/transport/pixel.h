@@ -4,6 +4,7 @@
 #include "renderer/transport/camera_ray.h"
 #include "renderer/transport/cryptomatte.h"
 #include "renderer/transport/dry_parts.h"
+#include "renderer/transport/rain_stage.h"
 #include "renderer/transport/render.h"
 
 #include <optional>

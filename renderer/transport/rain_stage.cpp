@@ -4,14 +4,73 @@
 #include <limits>
 
 namespace pluvia {
+namespace {
 
-const char* composition_name(Composition composition) {
-    return composition == Composition::paper ? "paper" : "physical";
+/// What hides the background by the paper's formula: streaks that know nothing of each other's times.
+class PaperCover {
+public:
+    /// Returns what nothing nearer hides.
+    float add(float alpha) {
+        const float share = transmittance_ * alpha;
+        transmittance_ *= 1 - alpha;
+        return share;
+    }
+    float total() const { return 1 - transmittance_; }
+    float transmittance() const { return transmittance_; }
+
+private:
+    float transmittance_ = 1;
+};
+
+/// The sample of one intensity, put together from near to far. covered: hides nothing yet. cover(hit): lets it hide
+/// what is behind a streak and returns the share that was not hidden before. gain: on the light of streaks.
+template <class Cover, class AddHit>
+RainSample composed(const RainScratch& scratch, const StreakBins& bins, const std::vector<double>& intensities,
+                    size_t intensity, const Cover& covered, float gain, const AddHit& cover) {
+    const size_t count = scratch.hits.size();
+    const float* const transmission = scratch.transmissions.data() + intensity;
+    RainSample sample;
+    int scattered = 0;
+    const auto scatter_before = [&](float distance) {
+        for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
+            sample.inscatter += scratch.scattered[scattered].light[intensity] * covered.transmittance();
+    };
+    Rgb veil;
+    const auto veil_before = [&](size_t k) {
+        if (scratch.veil.empty()) return;
+        const Rgb here = scratch.veil[k * intensities.size() + intensity];
+        sample.inscatter += (here - veil) * covered.transmittance();
+        veil = here;
+    };
+    for (size_t k = 0; k < count; ++k) {
+        const StreakHit& hit = scratch.hits[k];
+        if (bins.streaks()[hit.streak].threshold_mm_per_h > intensities[intensity]) continue;
+        scatter_before(hit.covered.distance);
+        veil_before(k);
+        const float weight = cover(hit);
+        if (hit.width >= 1) sample.wide_coverage += weight;
+        sample.light += scratch.light[k] * (weight * transmission[k * intensities.size()] * gain);
+    }
+    scatter_before(std::numeric_limits<float>::infinity());
+    veil_before(count);
+    sample.coverage = covered.total();
+    sample.transmission = covered.transmittance() * transmission[count * intensities.size()];
+    return sample;
 }
+
+}  // namespace
 
 RainStage::RainStage(const PathTracer& tracer, const StreakBins& bins, const RainMedium* medium,
                      std::vector<double> intensities, const StreakSettings& settings)
     : tracer_(&tracer), bins_(&bins), medium_(medium), intensities_(std::move(intensities)), settings_(settings) {}
+
+void RainStage::set_drop_light(const DropLight& light) {
+    drop_light_ = &light;
+    if (!medium_) return;
+    slice_depths_.resize(DropLight::slices * intensities_.size());
+    for (int k = 0; k + 1 < DropLight::slices; ++k)
+        medium_->axis_depths(DropLight::end_of(k), &slice_depths_[size_t(k) * intensities_.size()]);
+}
 
 bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, std::vector<RainSample>& samples,
                          RainScratch& scratch, Counters& counters) const {
@@ -42,10 +101,7 @@ bool RainStage::evaluate(const CameraSegment& segment, const Sampler& sampler, s
     for (const StreakHit& hit : scratch.hits)
         scratch.light.push_back(tabled ? tabled_light(hit, segment, scratch.distant, sampler, counters)
                                        : streak_light(hit, segment, scratch.distant, sampler, counters));
-    const bool paper = settings_.composition == Composition::paper;
-    if (paper && !scratch.hits.empty()) counters.count(Feature::paper_streak);
-    for (size_t i = 0; i < intensities_.size(); ++i)
-        paper ? compose_paper(scratch, segment, i, samples[i]) : compose_physical(scratch, i, samples[i]);
+    compose(scratch, segment, samples, counters);
     return true;
 }
 
@@ -69,75 +125,23 @@ void RainStage::find_transmissions(const RainSegment& in_rain, RainScratch& scra
     }
 }
 
-void RainStage::compose_physical(const RainScratch& scratch, size_t intensity, RainSample& result) const {
-    const size_t count = scratch.hits.size();
-    const float* const transmission = scratch.transmissions.data() + intensity;
-    ExposureUnion covered;
-    RainSample sample;
-    int scattered = 0;
-    const auto scatter_before = [&](float distance) {
-        for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
-            sample.inscatter += scratch.scattered[scattered].light[intensity] * covered.transmittance();
-    };
-    Rgb veil;
-    const auto veil_before = [&](size_t k) {
-        if (scratch.veil.empty()) return;
-        const Rgb here = scratch.veil[k * intensities_.size() + intensity];
-        sample.inscatter += (here - veil) * covered.transmittance();
-        veil = here;
-    };
-    for (size_t k = 0; k < count; ++k) {
-        const StreakHit& hit = scratch.hits[k];
-        if (bins_->streaks()[hit.streak].threshold_mm_per_h > intensities_[intensity]) continue;
-        scatter_before(hit.covered.distance);
-        veil_before(k);
-        const float weight = covered.add(hit.covered.begin, hit.covered.end);
-        if (hit.width >= 1) sample.wide_coverage += weight;
-        sample.light += scratch.light[k] * (weight * transmission[k * intensities_.size()]);
+/// Physical: streaks hide each other where their times overlap. The paper's: I' = (1 - S_a tau1/T) I + S tau1/tau0
+/// with S = gain S_a L tau0/T, in linear light, where L holds the streak's texture.
+void RainStage::compose(const RainScratch& scratch, const CameraSegment& segment, std::vector<RainSample>& samples,
+                        Counters& counters) const {
+    const bool paper = settings_.composition == Composition::paper;
+    if (paper && !scratch.hits.empty()) counters.count(Feature::paper_streak);
+    for (size_t i = 0; i < intensities_.size(); ++i) {
+        if (paper) {
+            PaperCover covered;
+            const auto cover = [&](const StreakHit& hit) { return covered.add(paper_weight(hit, segment)); };
+            samples[i] = composed(scratch, *bins_, intensities_, i, covered, float(settings_.paper_gain), cover);
+        } else {
+            ExposureUnion covered;
+            const auto cover = [&](const StreakHit& hit) { return covered.add(hit.covered.begin, hit.covered.end); };
+            samples[i] = composed(scratch, *bins_, intensities_, i, covered, 1, cover);
+        }
     }
-    scatter_before(std::numeric_limits<float>::infinity());
-    veil_before(count);
-    sample.coverage = covered.total();
-    sample.transmission = covered.transmittance() * transmission[count * intensities_.size()];
-    result = sample;
-}
-
-/// I' = (1 - S_a tau1/T) I + S tau1/tau0 with S = gain S_a L tau0/T, in linear light; L holds the streak's texture.
-void RainStage::compose_paper(const RainScratch& scratch, const CameraSegment& segment, size_t intensity,
-                              RainSample& result) const {
-    const size_t count = scratch.hits.size();
-    const float* const transmission = scratch.transmissions.data() + intensity;
-    float transmittance = 1;
-    RainSample sample;
-    int scattered = 0;
-    const auto scatter_before = [&](float distance) {
-        for (; scattered < scratch.scattered_count && scratch.scattered[scattered].distance <= distance; ++scattered)
-            sample.inscatter += scratch.scattered[scattered].light[intensity] * transmittance;
-    };
-    Rgb veil;
-    const auto veil_before = [&](size_t k) {
-        if (scratch.veil.empty()) return;
-        const Rgb here = scratch.veil[k * intensities_.size() + intensity];
-        sample.inscatter += (here - veil) * transmittance;
-        veil = here;
-    };
-    for (size_t k = 0; k < count; ++k) {
-        const StreakHit& hit = scratch.hits[k];
-        const Streak& streak = bins_->streaks()[hit.streak];
-        if (streak.threshold_mm_per_h > intensities_[intensity]) continue;
-        scatter_before(hit.covered.distance);
-        veil_before(k);
-        const float alpha = paper_weight(hit, segment);
-        sample.light += scratch.light[k] *
-                        (transmission[k * intensities_.size()] * transmittance * alpha * float(settings_.paper_gain));
-        if (hit.width >= 1) sample.wide_coverage += transmittance * alpha;
-        transmittance *= 1 - alpha;
-    }
-    scatter_before(std::numeric_limits<float>::infinity());
-    veil_before(count);
-    sample.coverage = 1 - transmittance;
-    sample.transmission = transmittance * transmission[count * intensities_.size()];
-    result = sample;
 }
 
 }  // namespace pluvia

@@ -1,12 +1,13 @@
 // render(): a scene, an environment and a view to the layers of a frame, in bands of finished rows.
 #pragma once
 
+#include "renderer/rain/streaks.h"
 #include "renderer/scene/camera.h"
 #include "renderer/transport/label_layers.h"
 #include "renderer/transport/layers.h"
 #include "renderer/transport/path.h"
 #include "renderer/transport/picture_source.h"
-#include "renderer/transport/rain_stage.h"
+#include "renderer/transport/streak_settings.h"
 
 #include <cstdint>
 #include <functional>

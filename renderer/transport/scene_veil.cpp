@@ -1,6 +1,7 @@
 // The rain stage in scenes, with light of fine drops from a table: only drops that are looked into are traced, and what
 // lamps bring straight, of which the table knows how much it may be: so much the more seldom are they asked.
 #include "renderer/transport/rain_stage.h"
+#include "renderer/transport/scattered_light.h"
 
 #include <algorithm>
 #include <cmath>

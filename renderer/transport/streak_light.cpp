@@ -1,5 +1,6 @@
 // The rain stage: light of a drop that a camera ray meets on its streak.
 #include "renderer/transport/rain_stage.h"
+#include "renderer/transport/scattered_light.h"
 #include "shaders/streak.h"
 
 #include <algorithm>
@@ -93,6 +94,19 @@ Rgb RainStage::streak_light(const StreakHit& hit, const CameraSegment& segment,
     counters.count(Feature::streak_path);
     const float spared = 1 / std::min(q, 1.0f);
     return spared * event.trace({segment.background_luminance, spared * weight}, counters);
+}
+
+/// Light of a drop that is not looked into, from the table's for its slice.
+Rgb RainStage::fine_light(const StreakHit& hit, const CameraSegment& segment, Rgb light, int slice,
+                          const Sampler& sampler) const {
+    if (settings_.composition == Composition::physical || !settings_.textures) return light;
+    const Streak& streak = bins_->streaks()[hit.streak];
+    const float time = 0.5f * (hit.covered.begin + hit.covered.end);
+    const StreakPlace place = streak_place(segment.ray.direction, streak.key, 2 * streak.radius, bins_->exposure_time(),
+                                           position_across(streak, segment.view_ray), time);
+    const Vec3 from =
+        drop_light_->direction(int(segment.pixel.x), int(segment.pixel.y), slice, sampler.get_1d(Draw::streak_phase));
+    return light * settings_.textures->brightness(place, from);
 }
 
 }  // namespace pluvia

@@ -11,10 +11,11 @@ import re
 import numpy
 
 from speed_measure import HERE, fail, run
-from speed_numbers import left_out_relmse, median, row, spread
+from speed_numbers import left_out_relmse, median, row, spread, trimmed_relmse
 
 CASES = [("day", "pluvia", 0), ("day", "cycles", 0), ("night", "pluvia", 60), ("night", "cycles", 60),
          ("thousand", "pluvia", 1000)]
+BACKGROUND = ["background.R", "background.G", "background.B"]
 
 
 def scene(street, lamps):
@@ -38,7 +39,7 @@ def ours(street, case, lamps, seed, path):
     frame = street.folder + "/frame"
     record = street.pluvia(scene(street, lamps), frame, "--size", street.options.size, "--spp", street.options.spp,
                            "--seed", seed, "--environment", environment(street, case))
-    keep_picture(street, path, frame + "/frame.exr", ["background.R", "background.G", "background.B"])
+    keep_picture(street, path, frame + "/frame.exr", BACKGROUND)
     return {k: record[k] for k in ("wall", "processor", "load", "rays")} | {"seed": seed}
 
 
@@ -64,11 +65,26 @@ def measure(street):
             street.kept.get(f"error/{case}/{program}/{i}", lambda: make(street, case, lamps, i + 1, path))
 
 
+def pictures(street, case, program):
+    count = len(street.kept.under(f"error/{case}/{program}"))
+    return [numpy.load(f"{street.folder}/error_{case}_{program}_{i}.npy").astype(float) for i in range(count)]
+
+
 def errors(street, case, program):
     """Trimmed relMSE of each picture so far; none where there are fewer than two."""
-    count = len(street.kept.under(f"error/{case}/{program}"))
-    pictures = [numpy.load(f"{street.folder}/error_{case}_{program}_{i}.npy").astype(float) for i in range(count)]
-    return left_out_relmse(pictures) if count > 1 else []
+    kept = pictures(street, case, program)
+    return left_out_relmse(kept) if len(kept) > 1 else []
+
+
+def error_of_frame(street, case, frame, spp):
+    """Trimmed relMSE of the clean picture of a frame of Pluvia with seeds of its own; None where there is nothing to hold
+    it against. What the mean of the kept pictures is off is taken out."""
+    import references
+    kept = pictures(street, case, "pluvia")
+    if not kept:
+        return None
+    picture = references.read_rgb(frame + "/frame.exr", BACKGROUND).astype(float)
+    return trimmed_relmse(picture, numpy.mean(kept, axis=0)) / (1 + spp / (len(kept) * street.options.spp))
 
 
 def rows(street):

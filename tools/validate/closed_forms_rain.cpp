@@ -73,8 +73,7 @@ Estimate drops_in_uneven_world(uint64_t seed) {
     Image<Rgb> world(512, 256);
     for (int y = 0; y < world.height; ++y)
         for (int x = 0; x < world.width; ++x) {
-            const Vec3d d = direction_from_azimuth(((x + 0.5) / world.width - 0.25) * 2 * std::numbers::pi,
-                                                   (0.5 - (y + 0.5) / world.height) * std::numbers::pi);
+            const Vec3d d(direction_from_equirectangular((x + 0.5) / world.width, (y + 0.5) / world.height));
             world.at(x, y) = Rgb(float(1 - dot(d, axis)));
         }
     Scene ground;  // a speck that says above what it rains
