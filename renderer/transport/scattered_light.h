@@ -27,9 +27,9 @@ public:
     float unshadowed() const { return unshadowed_; }
     /// The local light that was sampled, if any, and a weight for it where it is sampled in another way as well.
     const std::optional<Lights::LocalPoint>& lamp() const { return lamp_; }
+    void weigh_lamp(float weight);
     /// Unit, towards that lamp.
     Vec3 lamp_direction() const { return candidates_[0].light.wi; }
-    void weigh_lamp(float weight);
     /// Radiance towards the camera.
     Rgb trace(const PathWorth& worth, Counters& counters) const {
         return trace_lights(worth, counters) + trace_path(worth, counters);
