@@ -24,9 +24,9 @@ private:
 
 /// The sample of one intensity, put together from near to far. covered: hides nothing yet. cover(hit): lets it hide
 /// what is behind a streak and returns the share that was not hidden before. gain: on the light of streaks.
-template <class Cover, class AddHit>
+template <class Cover, class CoverHit>
 RainSample composed(const RainScratch& scratch, const StreakBins& bins, const std::vector<double>& intensities,
-                    size_t intensity, const Cover& covered, float gain, const AddHit& cover) {
+                    size_t intensity, const Cover& covered, float gain, const CoverHit& cover) {
     const size_t count = scratch.hits.size();
     const float* const transmission = scratch.transmissions.data() + intensity;
     RainSample sample;

@@ -1,6 +1,5 @@
 #include "renderer/transport/render.h"
 
-#include "renderer/core/parallel.h"
 #include "renderer/transport/passes.h"
 #include "renderer/transport/picture_drop_light.h"
 #include "renderer/transport/scene_drop_light.h"
@@ -8,6 +7,7 @@
 #include "renderer/transport/sky_sights.h"
 #include "renderer/transport/tiles.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -25,25 +25,6 @@ float dark_luminance(const PictureSource& picture) {
     double sum = 0;
     for (const Rgb c : picture.radiance.pixels) sum += luminance(c);
     return float(sum / double(picture.radiance.pixels.size()) / 4);
-}
-
-std::vector<float> render_pixels(const Frame& frame, std::span<const int64_t> pixels) {
-    const size_t channels = layer_channels(frame.settings.rain.intensities_mm_per_h).size();
-    std::vector<float> values(pixels.size() * channels);
-    constexpr int block = 16;
-    parallel_for(int((pixels.size() + block - 1) / block), [&](int b) {
-        PixelScratch scratch;
-        Counters counters;
-        scratch.rain.resize(frame.intensity_count());
-        scratch.depth = {0, 0, std::vector<float>(frame.intensity_count(), 0.0f)};
-        for (size_t i = size_t(b) * block; i < std::min(pixels.size(), size_t(b + 1) * block); ++i) {
-            const int x = int(pixels[i] % frame.view.width), y = int(pixels[i] / frame.view.width);
-            begin_pixel(frame, x, y, scratch);
-            add_samples(frame, x, y, 0, frame.settings.samples, scratch, counters);
-            develop(scratch.film.sums, scratch.depth, frame.settings.samples, &values[i * channels]);
-        }
-    });
-    return values;
 }
 
 /// next_pass: null where all samples are taken at once.

@@ -52,6 +52,25 @@ void add_to_tile(const Frame& frame, Film& film, int column, int row, int begin,
 
 }  // namespace
 
+std::vector<float> render_pixels(const Frame& frame, std::span<const int64_t> pixels) {
+    const size_t channels = layer_channels(frame.settings.rain.intensities_mm_per_h).size();
+    std::vector<float> values(pixels.size() * channels);
+    constexpr int block = 16;
+    parallel_for(int((pixels.size() + block - 1) / block), [&](int b) {
+        PixelScratch scratch;
+        Counters counters;
+        scratch.rain.resize(frame.intensity_count());
+        scratch.depth = {0, 0, std::vector<float>(frame.intensity_count(), 0.0f)};
+        for (size_t i = size_t(b) * block; i < std::min(pixels.size(), size_t(b + 1) * block); ++i) {
+            const int x = int(pixels[i] % frame.view.width), y = int(pixels[i] / frame.view.width);
+            begin_pixel(frame, x, y, scratch);
+            add_samples(frame, x, y, 0, frame.settings.samples, scratch, counters);
+            develop(scratch.film.sums, scratch.depth, frame.settings.samples, &values[i * channels]);
+        }
+    });
+    return values;
+}
+
 void add_pass(const Frame& frame, Film& film, int begin, int end, const ProgressCallback& progress,
               Counters& counters) {
     const int size = frame.settings.tile_size;

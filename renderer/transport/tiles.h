@@ -4,7 +4,14 @@
 #include "renderer/transport/film.h"
 #include "renderer/transport/frame_channels.h"
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 namespace pluvia {
+
+/// What a PixelRenderer gives, with the samples and the seed of the frame's settings.
+std::vector<float> render_pixels(const Frame& frame, std::span<const int64_t> pixels);
 
 /// Adds the samples begin <= i < end of every pixel to the film.
 void add_pass(const Frame& frame, Film& film, int begin, int end, const ProgressCallback& progress, Counters& counters);
