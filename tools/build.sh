@@ -4,7 +4,7 @@ set -eu
 cd "$(dirname "$0")/.."
 packages="g++ cmake ninja-build pkg-config libembree-dev libopenimageio-dev openimageio-tools libopencolorio-dev
 libopenexr-dev libwebp-dev libpng-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev libtbb-dev libfmt-dev nlohmann-json3-dev
-libcli11-dev doctest-dev libyaml-cpp-dev libarchive-dev libxxhash-dev"
+libcli11-dev doctest-dev libyaml-cpp-dev libarchive-dev libxxhash-dev libjemalloc-dev"
 missing=
 for package in $packages; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing="$missing $package"

@@ -34,26 +34,25 @@ void add_rain(Rgb background, double count, const std::vector<RainSample>& sampl
     }
 }
 
-/// Calls visit(index, position on the picture, touched) for the samples begin <= index < end; touched: those of the
-/// candidates that its rays may meet.
+/// Calls visit(first, positions on the picture) for some samples after the other of begin <= index < end. Of the
+/// candidates, their rays may meet those that touched then has.
 template <class Visit>
-void for_each_sample(const Frame& frame, int x, int y, int begin, int end, std::span<const uint32_t> candidates,
-                     StreakBins::Touched& touched, const Visit& visit) {
+void for_some_samples(const Frame& frame, int x, int y, int begin, int end, std::span<const uint32_t> candidates,
+                      StreakBins::Touched& touched, const Visit& visit) {
     std::array<Vec2, std::tuple_size_v<StreakBins::Touched>> positions;
     for (int first = begin; first < end; first += int(positions.size())) {
         const std::span<Vec2> some(positions.data(), std::min(positions.size(), size_t(end - first)));
         Sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(first)).get_2d(Draw::pixel, some);
         for (Vec2& position : some) position = {float(x) + position.x, float(y) + position.y};
-        if (!candidates.empty()) frame.bins->find_touched(candidates, some, touched);
-        for (size_t i = 0; i < some.size(); ++i)
-            visit(first + int(i), some[i],
-                  candidates.empty() ? std::span<const uint32_t>() : std::span<const uint32_t>(touched[i]));
+        if (frame.bins) frame.bins->find_touched(candidates, some, touched);
+        visit(first, std::span<const Vec2>(some));
     }
 }
 
+/// The light along a sample's path; where there is rain, what it passes is noted for it.
 /// pixel: the sample's position on the picture. touched: streaks that rays through it may meet.
-void add_sample(const Frame& frame, int x, int y, int index, Vec2 pixel, std::span<const uint32_t> touched,
-                PixelScratch& scratch, Counters& counters) {
+void add_path(const Frame& frame, int x, int y, int index, Vec2 pixel, std::span<const uint32_t> touched,
+              PixelScratch& scratch, Counters& counters) {
     const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
     if (frame.view.lens_radius > 0) counters.count(Feature::lens);
     Ray seen = view_ray(frame.view, pixel, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
@@ -79,16 +78,20 @@ void add_sample(const Frame& frame, int x, int y, int index, Vec2 pixel, std::sp
     }
     add(sums.background, path.radiance);
     if (!frame.rain) return;
-
     seen.t_max = float(ray.before + path.distance);
-    CameraSegment segment{pixel, touched,       ray.ray,
-                          seen,  path.radiance, std::max(frame.dark, mean_luminance(index + 1))};
+    scratch.segments.push_back(
+        {index, {pixel, touched, ray.ray, seen, path.radiance, std::max(frame.dark, mean_luminance(index + 1))}});
+}
+
+void add_rain_on_path(const Frame& frame, int x, int y, int index, CameraSegment& segment, PixelScratch& scratch,
+                      Counters& counters) {
     if (frame.rain->drop_light()) segment.drop_light = &scratch.drop_light;
     if (frame.shadow)
-        segment.dry =
-            scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y, seen.t_max, counters);
+        segment.dry = scratch.dry.up_to(*frame.shadow, frame.tracer.ray_scene(), frame.view, x, y,
+                                        segment.view_ray.t_max, counters);
+    const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
     if (!frame.rain->evaluate(segment, sampler, scratch.rain, scratch.streaks, counters)) return;
-    add_rain(path.radiance, 1, scratch.rain, sums, counters);
+    add_rain(segment.background, 1, scratch.rain, scratch.film.sums, counters);
 }
 
 }  // namespace
@@ -124,22 +127,24 @@ static void add_picture_samples(const Frame& frame, int x, int y, int begin, int
     if (frame.view.lens_radius > 0) counters.count(Feature::lens, samples);
 
     int untouched = end - begin;
-    for_each_sample(frame, x, y, begin, end, segment.candidates, scratch.touched,
-                    [&](int index, Vec2 position, std::span<const uint32_t> touched) {
-                        if (touched.empty()) return;
-                        const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
-                        seen = view_ray(frame.view, position,
-                                        frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
-                        seen.t_max = picture.along(x, y, seen).distance;
-                        find_hits(*frame.bins, touched, seen, scratch.streaks.hits);
-                        if (scratch.streaks.hits.empty()) return;
-                        --untouched;
-                        segment.pixel = position;
-                        if (frame.rain->needs_ray(scratch.streaks.hits))
-                            segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
-                        frame.rain->evaluate(segment, scratch.veil, sampler, scratch.rain, scratch.streaks, counters);
-                        add_rain(background, 1, scratch.rain, sums, counters);
-                    });
+    const auto add_sample = [&](int index, Vec2 position, std::span<const uint32_t> touched) {
+        if (touched.empty()) return;
+        const Sampler sampler(frame.settings.seed, uint32_t(x), uint32_t(y), uint32_t(index));
+        seen = view_ray(frame.view, position, frame.view.lens_radius > 0 ? sampler.get_2d(Draw::lens) : Vec2());
+        seen.t_max = picture.along(x, y, seen).distance;
+        find_hits(*frame.bins, touched, seen, scratch.streaks.hits);
+        if (scratch.streaks.hits.empty()) return;
+        --untouched;
+        segment.pixel = position;
+        if (frame.rain->needs_ray(scratch.streaks.hits)) segment.ray = scene_ray(frame.view, frame.far_scene, seen).ray;
+        frame.rain->evaluate(segment, scratch.veil, sampler, scratch.rain, scratch.streaks, counters);
+        add_rain(background, 1, scratch.rain, sums, counters);
+    };
+    for_some_samples(frame, x, y, begin, end, segment.candidates, scratch.touched,
+                     [&](int first, std::span<const Vec2> positions) {
+                         for (size_t i = 0; i < positions.size(); ++i)
+                             add_sample(first + int(i), positions[i], scratch.touched[i]);
+                     });
     add_rain(background, untouched, scratch.veil.untouched, sums, counters);
 }
 
@@ -149,10 +154,15 @@ void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScra
     else if (frame.picture && scratch.candidates.empty() && !frame.has_medium)
         add(scratch.film.sums.background, frame.picture->radiance.at(x, y) * float(end - begin));
     else
-        for_each_sample(frame, x, y, begin, end, scratch.candidates, scratch.touched,
-                        [&](int index, Vec2 position, std::span<const uint32_t> touched) {
-                            add_sample(frame, x, y, index, position, touched, scratch, counters);
-                        });
+        for_some_samples(frame, x, y, begin, end, scratch.candidates, scratch.touched,
+                         [&](int first, std::span<const Vec2> positions) {
+                             for (size_t i = 0; i < positions.size(); ++i)
+                                 add_path(frame, x, y, first + int(i), positions[i], scratch.touched[i], scratch,
+                                          counters);
+                             for (auto& [index, segment] : scratch.segments)
+                                 add_rain_on_path(frame, x, y, index, segment, scratch, counters);
+                             scratch.segments.clear();
+                         });
 }
 
 void find_centre(const Frame& frame, int x, int y, PixelScratch& scratch, Counters& counters) {

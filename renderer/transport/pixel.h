@@ -61,6 +61,11 @@ struct PixelScratch {
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     StreakBins::Touched touched;       // of them, for some samples
+    struct RainySample {
+        int index;
+        CameraSegment segment;
+    };
+    std::vector<RainySample> segments;  // of samples whose paths are done: rain and paths displace each other's data
     std::vector<float> values;
     std::vector<uint32_t> ids;
 };
