@@ -2,6 +2,9 @@
 // random, and where pages are small the processor looks up most of them in tables that it does not hold either. The
 // city street in the rain takes 0.85 of the time. A wish: without huge pages all works as well.
 
-/// Read by jemalloc when it starts. Its threads return what was freed for good.
-extern "C" const char* malloc_conf;
+extern "C" {
+
+/// Read by jemalloc when it starts.
+extern const char* malloc_conf;
 const char* malloc_conf = "thp:always";
+}
