@@ -34,8 +34,8 @@ void add_rain(Rgb background, double count, const std::vector<RainSample>& sampl
     }
 }
 
-/// Calls visit(first, positions on the picture) for some samples after the other of begin <= index < end. Of the
-/// candidates, their rays may meet those that touched then has.
+/// Takes the samples begin <= i < end some at a time: visit(first, their positions on the picture). Of the candidates
+/// the ray of sample first + i may meet those in touched[i].
 template <class Visit>
 void for_some_samples(const Frame& frame, int x, int y, int begin, int end, std::span<const uint32_t> candidates,
                       StreakBins::Touched& touched, const Visit& visit) {
@@ -49,7 +49,7 @@ void for_some_samples(const Frame& frame, int x, int y, int begin, int end, std:
     }
 }
 
-/// The light along a sample's path; where there is rain, what it passes is noted for it.
+/// Adds the light along a sample's path; where there is rain, the sample then waits in scratch.rainy.
 /// pixel: the sample's position on the picture. touched: streaks that rays through it may meet.
 void add_path(const Frame& frame, int x, int y, int index, Vec2 pixel, std::span<const uint32_t> touched,
               PixelScratch& scratch, Counters& counters) {
@@ -79,10 +79,11 @@ void add_path(const Frame& frame, int x, int y, int index, Vec2 pixel, std::span
     add(sums.background, path.radiance);
     if (!frame.rain) return;
     seen.t_max = float(ray.before + path.distance);
-    scratch.segments.push_back(
+    scratch.rainy.push_back(
         {index, {pixel, touched, ray.ray, seen, path.radiance, std::max(frame.dark, mean_luminance(index + 1))}});
 }
 
+/// Adds the rain of a sample whose path is done.
 void add_rain_on_path(const Frame& frame, int x, int y, int index, CameraSegment& segment, PixelScratch& scratch,
                       Counters& counters) {
     if (frame.rain->drop_light()) segment.drop_light = &scratch.drop_light;
@@ -159,9 +160,9 @@ void add_samples(const Frame& frame, int x, int y, int begin, int end, PixelScra
                              for (size_t i = 0; i < positions.size(); ++i)
                                  add_path(frame, x, y, first + int(i), positions[i], scratch.touched[i], scratch,
                                           counters);
-                             for (auto& [index, segment] : scratch.segments)
+                             for (auto& [index, segment] : scratch.rainy)
                                  add_rain_on_path(frame, x, y, index, segment, scratch, counters);
-                             scratch.segments.clear();
+                             scratch.rainy.clear();
                          });
 }
 

@@ -61,11 +61,12 @@ struct PixelScratch {
     DryPartsOfTile dry;
     std::vector<uint32_t> candidates;  // streaks near the pixel
     StreakBins::Touched touched;       // of them, for some samples
+    /// A sample that waits for its rain: paths and rain in turn would displace each other's data in the caches.
     struct RainySample {
         int index;
         CameraSegment segment;
     };
-    std::vector<RainySample> segments;  // of samples whose paths are done: rain and paths displace each other's data
+    std::vector<RainySample> rainy;
     std::vector<float> values;
     std::vector<uint32_t> ids;
 };
